@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+
+#include "physics/definitions.h"
+#include "physics/geometry/aabb.h"
+#include "physics/geometry/rotation.h"
+
+namespace urto {
+
+// A convex shape in its body's frame: a convex polygon swept by a disc. One vertex makes a circle, and with radius 0
+// three and more make a polygon. Vertices are counter-clockwise; normals[i] is the outward unit normal of the edge
+// from vertices[i] to vertices[i + 1].
+template <class S>
+struct Convex {
+  Vec<S> vertices[kPolygonVerticesMax];
+  Vec<S> normals[kPolygonVerticesMax];
+  Vec<S> centroid = Vec<S>::Zero();
+  std::uint32_t count = 0;
+  S radius = 0;  // m ≥ 0
+
+  Aabb<S> bounds(const Transform<S>& pose) const {
+    Vec<S> v = pose.apply(vertices[0]);
+    Aabb<S> box{v, v};
+    for (std::uint32_t i = 1; i < count; ++i) {
+      v = pose.apply(vertices[i]);
+      box = box.merged(Aabb<S>{v, v});
+    }
+    return box.expanded(radius);
+  }
+};
+
+}  // namespace urto
