@@ -105,12 +105,21 @@ inline void sin_cos_near(float x, float& sine, float& cosine) {
   place_quadrant(n, static_cast<float>(s), static_cast<float>(c), sine, cosine);
 }
 
-// The remainder of x by whole turns, rounded once; within one ulp beyond ±π. |x| ≤ kReductionMax.
-inline double remainder_turn_near(double x) {
-  const double turns = nearest_integer(x * (0.25 * kTwoOverPi));
+// x less whole turns, rounded once; exact products as above.
+inline double less_turns(double x, double turns) {
   double error;
   const double r = two_sum(x - turns * (4 * kHalfPi1), -(turns * (4 * kHalfPi2)), error);
   return r + ((error - turns * (4 * kHalfPi3)) - turns * (4 * kHalfPi4));
+}
+
+// The remainder of x by whole turns; at most one rounding beyond ±π. |x| ≤ kReductionMax.
+inline double remainder_turn_near(double x) {
+  const double turns = nearest_integer(x * (0.25 * kTwoOverPi));
+  const double r = less_turns(x, turns);
+  // Close to half a turn the product may have been rounded to the wrong side.
+  if (r > kPi<double>) return less_turns(x, turns + 1);
+  if (r < -kPi<double>) return less_turns(x, turns - 1);
+  return r;
 }
 
 }  // namespace trigonometry
