@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "physics/definitions.h"
+
+namespace urto {
+
+// A body as a scene or a spawn command describes it: what the engine needs, and what people call it.
+struct BodySpec {
+  std::string name;               // empty or unique in the room, at most kNameBytesMax bytes
+  std::vector<std::string> tags;  // at most kTagsMax, each at most kTagBytesMax bytes
+  BodyDef def;
+  std::optional<std::uint32_t> color;  // 0xRRGGBB
+};
+
+// What a viewer should frame at first: a rectangle, m, world frame.
+struct View {
+  Vec2 lower{0, 0};
+  Vec2 upper{0, 0};
+};
+
+// Everything a world starts with.
+struct SceneDef {
+  std::string name;
+  std::string description;
+  WorldSettings world;
+  std::vector<BodySpec> bodies;
+  std::optional<View> view;
+};
+
+}  // namespace urto
