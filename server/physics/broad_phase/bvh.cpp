@@ -1,0 +1,163 @@
+#include "physics/broad_phase/bvh.h"
+
+#include <algorithm>
+
+#include "physics/broad_phase/segment_bounds.h"
+
+namespace urto {
+namespace {
+
+// Finds the overlapping pairs, of which one is marked, within a tree or between two.
+template <class S>
+class TreeJoin {
+ public:
+  using Tree = PackedTree<S>;
+  using Node = Box4<S>;
+
+  TreeJoin(const Tree& a, const Tree& b, PairSorter& pairs) : a_(a), b_(b), pairs_(pairs) {}
+
+  // Pairs under one node of tree a.
+  void within(std::uint32_t level, std::uint32_t index) {
+    const Node& boxes = a_.node(level, index);
+    const std::uint32_t marks = a_.marks(level, index);
+    for (int i = 0; i < 4; ++i) {
+      const std::uint32_t later = Node::kAll & ~((2u << i) - 1);
+      const std::uint32_t wanted = (marks >> i & 1u) != 0 ? Node::kAll : marks;
+      for (std::uint32_t hits = boxes.overlap_mask(boxes, i) & later & wanted; hits != 0; hits &= hits - 1) {
+        const int j = std::countr_zero(hits);
+        if (level == 0) {
+          pairs_.add(a_.proxy(index, i), a_.proxy(index, j));
+        } else {
+          between({level - 1, child(index, i), boxes.get(i)}, {level - 1, child(index, j), boxes.get(j)});
+        }
+      }
+      if (level != 0 && (marks >> i & 1u) != 0) within(level - 1, child(index, i));
+    }
+  }
+
+  // Pairs of one proxy of tree a and one of tree b.
+  void all_between() {
+    const std::uint32_t a = a_.top_level(), b = b_.top_level();
+    between({a, 0, a_.node(a, 0).bounds()}, {b, 0, b_.node(b, 0).bounds()});
+  }
+
+ private:
+  struct Branch {
+    std::uint32_t level, index;
+    Aabb<S> bounds;
+  };
+
+  static std::uint32_t child(std::uint32_t index, int lane) { return index * 4 + static_cast<std::uint32_t>(lane); }
+
+  // Pairs under node x of tree a and node y of tree b, of which one holds a mark.
+  void between(const Branch& x, const Branch& y) {
+    if (x.level > y.level) return descend(a_, x, b_, y, [&](const Branch& part) { between(part, y); });
+    if (y.level > x.level) return descend(b_, y, a_, x, [&](const Branch& part) { between(x, part); });
+    const Node& boxes_x = a_.node(x.level, x.index);
+    const Node& boxes_y = b_.node(y.level, y.index);
+    const std::uint32_t marks_x = a_.marks(x.level, x.index), marks_y = b_.marks(y.level, y.index);
+    const std::uint32_t near_x = boxes_y.overlap_mask(x.bounds);
+    for (std::uint32_t parts = boxes_x.overlap_mask(y.bounds); parts != 0; parts &= parts - 1) {
+      const int i = std::countr_zero(parts);
+      const std::uint32_t wanted = (marks_x >> i & 1u) != 0 ? near_x : near_x & marks_y;
+      if (wanted == 0) continue;
+      for (std::uint32_t hits = boxes_y.overlap_mask(boxes_x, i) & wanted; hits != 0; hits &= hits - 1) {
+        const int j = std::countr_zero(hits);
+        if (x.level == 0) {
+          pairs_.add(a_.proxy(x.index, i), b_.proxy(y.index, j));
+        } else {
+          between({x.level - 1, child(x.index, i), boxes_x.get(i)}, {y.level - 1, child(y.index, j), boxes_y.get(j)});
+        }
+      }
+    }
+  }
+
+  // Calls next for each branch under `high` that may hold partners of `low`.
+  template <class Next>
+  static void descend(const Tree& tree, const Branch& high, const Tree& other, const Branch& low, Next&& next) {
+    const Node& boxes = tree.node(high.level, high.index);
+    std::uint32_t hits = boxes.overlap_mask(low.bounds);
+    if (other.marks(low.level, low.index) == 0) hits &= tree.marks(high.level, high.index);
+    for (; hits != 0; hits &= hits - 1) {
+      const int i = std::countr_zero(hits);
+      next(Branch{high.level - 1, child(high.index, i), boxes.get(i)});
+    }
+  }
+
+  const Tree& a_;
+  const Tree& b_;
+  PairSorter& pairs_;
+};
+
+}  // namespace
+
+template <class S>
+void Bvh<S>::insert(Proxy proxy, const Aabb<S>& bounds, bool still) {
+  if (proxy >= still_.size()) still_.resize(proxy + 1, 0);
+  still_[proxy] = still ? 1 : 0;
+  tree_of(proxy).insert(proxy, bounds);
+}
+
+template <class S>
+void Bvh<S>::remove(Proxy proxy) {
+  tree_of(proxy).remove(proxy);
+}
+
+template <class S>
+void Bvh<S>::move(Proxy proxy, const Aabb<S>& bounds) {
+  tree_of(proxy).move(proxy, bounds);
+}
+
+template <class S>
+void Bvh<S>::refresh() const {
+  still_tree_.refresh();
+  moving_tree_.refresh();
+}
+
+template <class S>
+void Bvh<S>::find_pairs(std::span<const Proxy> moved, std::vector<std::pair<Proxy, Proxy>>& pairs) const {
+  refresh();
+  for (const Proxy proxy : moved) tree_of(proxy).mark(proxy);
+  sorter_.clear();
+  if (!moving_tree_.empty()) {
+    TreeJoin<S>(moving_tree_, moving_tree_, sorter_).within(moving_tree_.top_level(), 0);
+    if (!still_tree_.empty()) TreeJoin<S>(moving_tree_, still_tree_, sorter_).all_between();
+  }
+  for (const Proxy proxy : moved) tree_of(proxy).unmark(proxy);
+  sorter_.sort_into(static_cast<std::uint32_t>(still_.size()), pairs);
+}
+
+template <class S>
+void Bvh<S>::query(const Aabb<S>& box, std::vector<Proxy>& out) const {
+  refresh();
+  out.clear();
+  for (const PackedTree<S>* tree : {&still_tree_, &moving_tree_}) {
+    tree->visit([&](const Box4<S>& boxes) { return boxes.overlap_mask(box); },
+                [&](Proxy proxy, const Box4<S>&, int) { out.push_back(proxy); });
+  }
+  std::sort(out.begin(), out.end());
+}
+
+template <class S>
+void Bvh<S>::query_segment(const Vec<S>& origin, const Vec<S>& translation, std::vector<Proxy>& out) const {
+  refresh();
+  const SegmentBounds<S> segment(origin, translation);
+  out.clear();
+  const auto mask_of = [&](const Box4<S>& boxes) {
+    std::uint32_t met = boxes.overlap_mask(segment.bounds());
+    for (std::uint32_t rest = met; rest != 0; rest &= rest - 1) {
+      const int lane = std::countr_zero(rest);
+      if (!segment.meets(boxes.get(lane))) met &= ~(1u << lane);
+    }
+    return met;
+  };
+  for (const PackedTree<S>* tree : {&still_tree_, &moving_tree_}) {
+    tree->visit(mask_of, [&](Proxy proxy, const Box4<S>&, int) { out.push_back(proxy); });
+  }
+  std::sort(out.begin(), out.end());
+}
+
+template class Bvh<float>;
+template class Bvh<double>;
+
+}  // namespace urto
