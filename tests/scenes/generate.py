@@ -633,14 +633,13 @@ def orbit() -> Message:
 
 
 def integrators(integrator: str = "SEMI_IMPLICIT_EULER") -> Message:
-    effects = {
-        "SEMI_IMPLICIT_EULER": "the energy swings about its value and stays bounded",
-        "EXPLICIT_EULER": "the energy grows and the bodies spiral outwards",
-        "VERLET": "the energy swings about its value and stays bounded",
-        "RUNGE_KUTTA_4": "the energy falls so slowly that no eye sees it",
-    }
+    words, effect = {
+        "SEMI_IMPLICIT_EULER": ("semi-implicit Euler", "the energy swings about its value and stays bounded"),
+        "EXPLICIT_EULER": ("explicit Euler", "the energy grows and the bodies spiral outwards"),
+        "VERLET": ("Verlet", "the energy swings about its value and stays bounded"),
+        "RUNGE_KUTTA_4": ("Runge-Kutta 4", "the energy falls so slowly that no eye sees it"),
+    }[integrator]
     name = "integrators" if integrator == "SEMI_IMPLICIT_EULER" else f"integrators_{integrator.lower()}"
-    words = integrator.replace("_", " ").lower()
     bodies = [body(box(0.2, 0.2, mask=0), 0, 0, name="anchor", kind="STATIC", angle=math.pi / 4, color=SLATE)]
     # Around a spring of 4 N/m: angular frequency 2/√m. Round, flat and straight ellipses.
     for index, (mass, shape_of_orbit) in enumerate(((1.0, 1.0), (2.0, 0.6), (4.0, 0.3), (8.0, 0.0))):
@@ -669,7 +668,7 @@ def integrators(integrator: str = "SEMI_IMPLICIT_EULER") -> Message:
     }
     return scene(
         name,
-        f"Four masses on a spring to the origin with {words} at the coarse step of 0.05 s: {effects[integrator]}.",
+        f"Four masses on a spring to the origin with {words} at the coarse step of 0.05 s: {effect}.",
         (-14, -8, 14, 8),
         bodies,
         world,
