@@ -1,0 +1,150 @@
+"""Builds the messages of commands and queries."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+from urto._bodies import Spawnable, VectorLike, body_to_proto, to_number, vector_to_proto
+from urto._exceptions import InvalidArgument
+from urto._handle import Handle
+from urto._proto.v1 import command_pb2
+
+BodyRef: TypeAlias = Handle | int | str
+"""A body: its handle, its id, or its name."""
+
+FrameName: TypeAlias = Literal["world", "body"]
+
+_FRAMES = {"world": command_pb2.FRAME_WORLD, "body": command_pb2.FRAME_BODY}
+
+
+def _frame(name: str) -> command_pb2.Frame:
+    if name not in _FRAMES:
+        raise InvalidArgument(f"frame must be 'world' or 'body', not {name!r}")
+    return _FRAMES[name]
+
+
+def body_ref(body: BodyRef) -> command_pb2.BodyRef:
+    if isinstance(body, Handle):
+        return body.to_proto()
+    if isinstance(body, str):
+        return command_pb2.BodyRef(name=body)
+    if isinstance(body, int) and not isinstance(body, bool) and 0 <= body < 2**64:
+        return command_pb2.BodyRef(id=body)
+    raise InvalidArgument(f"a body is a handle, an id or a name, not {body!r}")
+
+
+def spawn(description: Spawnable) -> command_pb2.Command:
+    return command_pb2.Command(spawn=command_pb2.Spawn(body=body_to_proto(description)))
+
+
+def despawn(body: BodyRef) -> command_pb2.Command:
+    return command_pb2.Command(despawn=command_pb2.Despawn(body=body_ref(body)))
+
+
+def impulse(
+    body: BodyRef, vector: VectorLike, point: VectorLike | None, frame: str, angular: float
+) -> command_pb2.Command:
+    message = command_pb2.Impulse(
+        body=body_ref(body),
+        impulse=vector_to_proto("impulse", vector),
+        frame=_frame(frame),
+        angular=to_number("angular", angular),
+    )
+    if point is not None:
+        message.point.CopyFrom(vector_to_proto("point", point))
+    return command_pb2.Command(impulse=message)
+
+
+def force(
+    body: BodyRef, vector: VectorLike, torque: float, frame: str, duration: float | None
+) -> command_pb2.Command:
+    message = command_pb2.Force(
+        body=body_ref(body),
+        force=vector_to_proto("force", vector),
+        torque=to_number("torque", torque),
+        frame=_frame(frame),
+    )
+    if duration is not None:
+        message.duration = to_number("duration", duration)
+    return command_pb2.Command(force=message)
+
+
+def set_velocity(body: BodyRef, velocity: VectorLike | None, angular_velocity: float | None) -> command_pb2.Command:
+    message = command_pb2.SetVelocity(body=body_ref(body))
+    if velocity is not None:
+        message.velocity.CopyFrom(vector_to_proto("velocity", velocity))
+    if angular_velocity is not None:
+        message.angular_velocity = to_number("angular_velocity", angular_velocity)
+    return command_pb2.Command(set_velocity=message)
+
+
+def set_transform(body: BodyRef, position: VectorLike | None, angle: float | None) -> command_pb2.Command:
+    message = command_pb2.SetTransform(body=body_ref(body))
+    if position is not None:
+        message.position.CopyFrom(vector_to_proto("position", position))
+    if angle is not None:
+        message.angle = to_number("angle", angle)
+    return command_pb2.Command(set_transform=message)
+
+
+def pause() -> command_pb2.Command:
+    return command_pb2.Command(pause=command_pb2.Pause())
+
+
+def resume() -> command_pb2.Command:
+    return command_pb2.Command(resume=command_pb2.Resume())
+
+
+def step(ticks: int) -> command_pb2.Command:
+    if isinstance(ticks, bool) or not isinstance(ticks, int) or not 0 <= ticks < 2**32:
+        raise InvalidArgument(f"ticks must be a whole number, not {ticks!r}")
+    return command_pb2.Command(step=command_pb2.Step(ticks=ticks))
+
+
+def reset() -> command_pb2.Command:
+    return command_pb2.Command(reset=command_pb2.Reset())
+
+
+def set_time_scale(scale: float) -> command_pb2.Command:
+    return command_pb2.Command(set_time_scale=command_pb2.SetTimeScale(scale=to_number("scale", scale)))
+
+
+def _query(query: command_pb2.Query) -> command_pb2.Command:
+    return command_pb2.Command(query=query)
+
+
+def query_point(point: VectorLike) -> command_pb2.Command:
+    return _query(command_pb2.Query(point=command_pb2.PointQuery(point=vector_to_proto("point", point))))
+
+
+def query_region(lower: VectorLike, upper: VectorLike) -> command_pb2.Command:
+    region = command_pb2.RegionQuery(lower=vector_to_proto("lower", lower), upper=vector_to_proto("upper", upper))
+    return _query(command_pb2.Query(region=region))
+
+
+def query_ray(origin: VectorLike, translation: VectorLike) -> command_pb2.Command:
+    ray = command_pb2.RayQuery(
+        origin=vector_to_proto("origin", origin), translation=vector_to_proto("translation", translation)
+    )
+    return _query(command_pb2.Query(ray=ray))
+
+
+def query_nearest(point: VectorLike, distance_max: float, count_max: int) -> command_pb2.Command:
+    if isinstance(count_max, bool) or not isinstance(count_max, int) or not 0 <= count_max < 2**32:
+        raise InvalidArgument(f"count_max must be a whole number, not {count_max!r}")
+    nearest = command_pb2.NearestQuery(
+        point=vector_to_proto("point", point), distance_max=to_number("distance_max", distance_max), count_max=count_max
+    )
+    return _query(command_pb2.Query(nearest=nearest))
+
+
+def query_contacts() -> command_pb2.Command:
+    return _query(command_pb2.Query(contacts=command_pb2.ContactsQuery()))
+
+
+def query_diagnostics() -> command_pb2.Command:
+    return _query(command_pb2.Query(diagnostics=command_pb2.DiagnosticsQuery()))
+
+
+def query_body(body: BodyRef) -> command_pb2.Command:
+    return _query(command_pb2.Query(body=command_pb2.BodyQuery(body=body_ref(body))))

@@ -1,0 +1,1 @@
+"""Schema urto.v1; written by scripts/generate-proto."""
