@@ -34,10 +34,10 @@ THIRD_PARTIES = {
 def tracked_files() -> list[Path]:
     """The files of the project: those that git knows and those that it would not ignore."""
     command = ["git", "ls-files", "--cached", "--others", "--exclude-standard"]
-    listing = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
-    if listing.returncode == 0:
-        paths = [ROOT / line for line in listing.stdout.splitlines()]
-    else:  # not a checkout: an unpacked archive
+    try:
+        listing = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
+        paths = [ROOT / line for line in listing.splitlines()]
+    except (FileNotFoundError, subprocess.CalledProcessError):  # no git, or not a checkout
         left_out = {"build", ".venv", "out", "target", "__pycache__", ".git"}
         paths = [path for path in ROOT.rglob("*") if not left_out & set(path.relative_to(ROOT).parts)]
     return sorted(path for path in paths if path.is_file())
