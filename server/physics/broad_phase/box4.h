@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -12,26 +11,25 @@
 
 namespace urto {
 
-// Vectors of four lanes. Only loads, comparisons, minima and maxima are done on them: no rounding, so the same answers
-// on every processor.
+// A vector of 16 bytes over an array of scalars. Nothing but loads and comparisons is done on it: no rounding, so the
+// same answers on every processor.
 template <class S>
-struct Lanes4;
+struct Vector16;
 template <>
-struct Lanes4<float> {
-  typedef float Type __attribute__((vector_size(16)));
+struct Vector16<float> {
+  typedef float Type __attribute__((vector_size(16), may_alias));
 };
 template <>
-struct Lanes4<double> {
-  typedef double Type __attribute__((vector_size(32)));
+struct Vector16<double> {
+  typedef double Type __attribute__((vector_size(16), may_alias));
 };
 
 // Four boxes side by side: one cache line in float. An empty lane overlaps nothing.
 template <class S>
-struct Box4 {
-  using Lanes = typename Lanes4<S>::Type;
+struct alignas(16 * sizeof(S)) Box4 {
   static constexpr std::uint32_t kAll = 0xf;
 
-  Lanes lower_x, lower_y, upper_x, upper_y;
+  S lower_x[4], lower_y[4], upper_x[4], upper_y[4];
 
   Box4() { clear(); }
 
@@ -58,36 +56,49 @@ struct Box4 {
 
   // Bit i: lane i overlaps the box (touching counts).
   std::uint32_t overlap_mask(const Aabb<S>& box) const {
-    return mask((lower_x <= box.upper.x()) & (upper_x >= box.lower.x()) & (lower_y <= box.upper.y()) &
-                (upper_y >= box.lower.y()));
+    return overlap_mask(box.lower.x(), box.lower.y(), box.upper.x(), box.upper.y());
   }
   // Bit i: lane i overlaps lane `lane` of `other`.
   std::uint32_t overlap_mask(const Box4& other, int lane) const {
-    return mask((lower_x <= other.upper_x[lane]) & (upper_x >= other.lower_x[lane]) & (lower_y <= other.upper_y[lane]) &
-                (upper_y >= other.lower_y[lane]));
+    return overlap_mask(other.lower_x[lane], other.lower_y[lane], other.upper_x[lane], other.upper_y[lane]);
   }
 
  private:
-  static S least(const Lanes& v) { return lesser(lesser(v[0], v[1]), lesser(v[2], v[3])); }
-  static S greatest(const Lanes& v) { return greater(greater(v[0], v[1]), greater(v[2], v[3])); }
-  static S lesser(S a, S b) { return a < b ? a : b; }
-  static S greater(S a, S b) { return a > b ? a : b; }
+  using Vector = typename Vector16<S>::Type;
+  static constexpr int kVectorLanes = 16 / sizeof(S);
+
+  static const Vector& load(const S* values) { return *reinterpret_cast<const Vector*>(values); }
+
+  std::uint32_t overlap_mask(S low_x, S low_y, S high_x, S high_y) const {
+    std::uint32_t out = 0;
+    for (int lane = 0; lane < 4; lane += kVectorLanes) {
+      out |= bits((load(lower_x + lane) <= high_x) & (load(upper_x + lane) >= low_x) &
+                  (load(lower_y + lane) <= high_y) & (load(upper_y + lane) >= low_y))
+             << lane;
+    }
+    return out;
+  }
 
   // One bit a lane of a comparison's result (all ones or all zeros a lane).
   template <class Comparison>
-  static std::uint32_t mask(const Comparison& lanes) {
+  static std::uint32_t bits(const Comparison& lanes) {
 #if defined(__SSE2__)
     if constexpr (sizeof(S) == 4) {
       return static_cast<std::uint32_t>(_mm_movemask_ps(reinterpret_cast<const __m128&>(lanes)));
     } else {
-      const auto* halves = reinterpret_cast<const __m128d*>(&lanes);
-      return static_cast<std::uint32_t>(_mm_movemask_pd(halves[0]) | (_mm_movemask_pd(halves[1]) << 2));
+      return static_cast<std::uint32_t>(_mm_movemask_pd(reinterpret_cast<const __m128d&>(lanes)));
     }
 #else
-    const Comparison bits = lanes & Comparison{1, 2, 4, 8};
-    return static_cast<std::uint32_t>(bits[0] | bits[1] | bits[2] | bits[3]);
+    std::uint32_t out = 0;
+    for (int lane = 0; lane < kVectorLanes; ++lane) out |= static_cast<std::uint32_t>(lanes[lane] & 1) << lane;
+    return out;
 #endif
   }
+
+  static S least(const S* v) { return lesser(lesser(v[0], v[1]), lesser(v[2], v[3])); }
+  static S greatest(const S* v) { return greater(greater(v[0], v[1]), greater(v[2], v[3])); }
+  static S lesser(S a, S b) { return a < b ? a : b; }
+  static S greater(S a, S b) { return a > b ? a : b; }
 };
 
 }  // namespace urto

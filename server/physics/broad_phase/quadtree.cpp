@@ -31,6 +31,14 @@ bool Quadtree<S>::loosely_contains(const Node& node, const Aabb<S>& bounds) {
 }
 
 template <class S>
+bool Quadtree<S>::holds(const Node& node, const Aabb<S>& bounds) {
+  const Vec<S> center = bounds.center();
+  return node.center_x - node.half <= center.x() && center.x() <= node.center_x + node.half &&
+         node.center_y - node.half <= center.y() && center.y() <= node.center_y + node.half &&
+         loosely_contains(node, bounds);
+}
+
+template <class S>
 bool Quadtree<S>::loosely_overlaps(const Node& node, const Aabb<S>& bounds) {
   const double reach = 2 * node.half;
   return node.center_x - reach <= bounds.upper.x() && bounds.lower.x() <= node.center_x + reach &&
@@ -71,9 +79,9 @@ template <class S>
 void Quadtree<S>::move(Proxy proxy, const Aabb<S>& bounds) {
   Entry& entry = entries_[proxy];
   const Node& node = nodes_[entry.node];
-  // It stays where it is as long as it fits there and would not sink into a child.
+  // It stays where it is as long as place() would put it there.
   const bool stays =
-      loosely_contains(node, bounds) &&
+      holds(node, bounds) &&
       (node.children == kNone || !loosely_contains(nodes_[node.children + quadrant_of(node, bounds)], bounds));
   if (stays) {
     entry.bounds = bounds;
@@ -135,7 +143,7 @@ void Quadtree<S>::unlink(Proxy proxy) {
 // The old root becomes one quarter of a root twice as large, which lies towards the proxy.
 template <class S>
 void Quadtree<S>::grow_root(const Aabb<S>& bounds) {
-  while (!loosely_contains(nodes_[0], bounds) && nodes_[0].half < kRootHalfMax) {
+  while (!holds(nodes_[0], bounds) && nodes_[0].half < kRootHalfMax) {
     const Vec<S> toward = bounds.center();
     const Node old = nodes_[0];
     Node root;

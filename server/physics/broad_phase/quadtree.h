@@ -10,8 +10,8 @@
 
 namespace urto {
 
-// A loose quadtree. A cell is a square; its loose bounds reach half a cell further on every side. A proxy lies in one
-// node, the deepest one there is whose loose bounds contain it, towards the cell that holds its centre:
+// A loose quadtree. A cell is a square; its loose bounds reach half a cell further on every side. A proxy lies in the
+// deepest node there is whose cell holds its centre and whose loose bounds contain it:
 //
 //   ┌───────┬───────┐
 //   │       │ ┌───┐ │   A leaf that holds more than kLeafProxiesMax is split into four, down to a least size.
@@ -53,6 +53,8 @@ class Quadtree final : public BroadPhase<S> {
     bool moved = false;  // scratch of find_pairs, false between calls
   };
 
+  // The proxy's centre lies in the cell, and the loose bounds contain all of it.
+  static bool holds(const Node& node, const Aabb<S>& bounds);
   static bool loosely_contains(const Node& node, const Aabb<S>& bounds);
   static bool loosely_overlaps(const Node& node, const Aabb<S>& bounds);
   static int quadrant_of(const Node& node, const Aabb<S>& bounds);
