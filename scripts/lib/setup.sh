@@ -5,6 +5,7 @@
 ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 readonly ROOT
 readonly VENV="$ROOT/.venv"
+readonly URTOD="$ROOT/build/release/server/app/urtod"
 readonly CARGO_VERSION_MIN=1.85
 readonly PYTHON_VERSION_MIN=3.11
 
@@ -28,14 +29,15 @@ as_root() {
   fi
 }
 
-package_installed() { [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }
+installed_packages() { dpkg-query -W -f='${db:Status-Status} ${Package}\n' "$@" 2>/dev/null | sed -n 's/^installed //p'; }
 package_candidate() { LC_ALL=C apt-cache policy "$1" 2>/dev/null | sed -n 's/^  Candidate: //p' | grep -v '(none)'; }
 
 # apt_install PACKAGE…: installs the ones that are missing. It never removes a package.
 apt_install() {
-  local package missing=()
+  local package missing=() installed
   command -v dpkg-query >/dev/null || { note "not a Debian: taking for granted what these packages hold: $*"; return; }
-  for package in "$@"; do package_installed "$package" || missing+=("$package"); done
+  installed=" $(installed_packages "$@" | tr '\n' ' ') "
+  for package in "$@"; do [[ $installed == *" $package "* ]] || missing+=("$package"); done
   [ ${#missing[@]} -gt 0 ] || return 0
   say "Installing from Debian: ${missing[*]}"
   for package in "${missing[@]}"; do
@@ -149,4 +151,21 @@ build() {
   shift
   NINJA_STATUS='    [%f/%t %es] ' cmake --build "$folder" ${jobs:+--parallel "$jobs"} --target "$@" ||
     die "the build failed; the compiler's words are above"
+}
+
+# ---- the two halves of the project ----
+
+set_up_server() {
+  apt_install "${BUILD_PACKAGES[@]}"
+  ensure_cargo
+  [ -f "$ROOT/build/release/build.ninja" ] || configure release -DURTO_BUILD_TESTS=OFF
+  if [ ! -x "$URTOD" ]; then
+    say "Building the server; the first time takes about ten minutes on two cores, most of them for Zenoh"
+  fi
+  build release urtod
+}
+
+set_up_client() {
+  apt_install ca-certificates
+  ensure_venv
 }

@@ -369,7 +369,7 @@ def pile(count: int = 200) -> Message:
         body(box(1, 9, angle=0.25), -9.6, 4, name="wall_left", kind="STATIC", color=SLATE),
         body(box(1, 9, angle=-0.25), 9.6, 4, name="wall_right", kind="STATIC", color=SLATE),
     ]
-    columns, pitch = 10, 1.35
+    columns, pitch = 12, 1.3
     letter_l = [(-0.45, -0.5), (0.45, -0.5), (0.45, -0.1), (-0.05, -0.1), (-0.05, 0.5), (-0.45, 0.5)]
     for index in range(count):
         row, column = divmod(index, columns)
@@ -377,7 +377,7 @@ def pile(count: int = 200) -> Message:
         y = 3 + row * pitch + 0.1 * (2 * dice.random() - 1)
         size = 0.6 + 0.4 * dice.random()
         angle = math.pi * (2 * dice.random() - 1)
-        kind = index % 5
+        kind = (index + row) % 5
         if kind == 0:
             shape = box(size, 0.55 * size + 0.2 * dice.random())
         elif kind == 1:
@@ -394,7 +394,7 @@ def pile(count: int = 200) -> Message:
                 shape,
                 x,
                 y,
-                name=f"{names[kind]}_{index // 5 + 1}",
+                name=f"{names[kind]}_{index + 1}",
                 tags=(names[kind],),
                 angle=angle,
                 color=(SEA, SAND, TEAL, ROSE, CORAL)[kind],
@@ -601,7 +601,7 @@ def orbit() -> Message:
         turn = 2 * math.pi * (index + 0.8 * dice.random()) / 60
         distance = 6.7 + 0.7 * dice.random()
         speed = math.sqrt(strength / distance)
-        size = 0.08 + 0.08 * dice.random()
+        size = 0.16 + 0.16 * dice.random()
         bodies.append(
             body(
                 box(size, 0.6 * size, **free),
@@ -640,7 +640,7 @@ def integrators(integrator: str = "SEMI_IMPLICIT_EULER") -> Message:
         "RUNGE_KUTTA_4": ("Runge-Kutta 4", "the energy falls so slowly that no eye sees it"),
     }[integrator]
     name = "integrators" if integrator == "SEMI_IMPLICIT_EULER" else f"integrators_{integrator.lower()}"
-    bodies = [body(box(0.2, 0.2, mask=0), 0, 0, name="anchor", kind="STATIC", angle=math.pi / 4, color=SLATE)]
+    bodies = [body(box(0.3, 0.3, mask=0), 0, 0, name="anchor", kind="STATIC", angle=math.pi / 4, color=SLATE)]
     # Around a spring of 4 N/m: angular frequency 2/√m. Round, flat and straight ellipses.
     for index, (mass, shape_of_orbit) in enumerate(((1.0, 1.0), (2.0, 0.6), (4.0, 0.3), (8.0, 0.0))):
         reach = 2.0 + index
@@ -648,7 +648,7 @@ def integrators(integrator: str = "SEMI_IMPLICIT_EULER") -> Message:
         turn = math.pi / 2 * index
         bodies.append(
             body(
-                circle(0.15 + 0.05 * index, mask=0),
+                circle(0.3 + 0.08 * index, mask=0),
                 reach * math.cos(turn),
                 reach * math.sin(turn),
                 name=f"mass_{round(mass)}",
