@@ -5,7 +5,7 @@
 ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 readonly ROOT
 readonly VENV="$ROOT/.venv"
-readonly URTOD="$ROOT/build/release/server/app/urtod"
+readonly URTOD="$ROOT/build/release/bin/urtod"
 readonly CARGO_VERSION_MIN=1.85
 readonly PYTHON_VERSION_MIN=3.11
 
@@ -128,7 +128,7 @@ ensure_venv() {
 # ---- C++ ----
 
 readonly BUILD_PACKAGES=(ca-certificates g++ cmake ninja-build protobuf-compiler libprotobuf-dev libeigen3-dev libexpected-dev
-  libxxhash-dev libspdlog-dev libcli11-dev libhwy-dev)
+  libspdlog-dev libcli11-dev)
 readonly TEST_PACKAGES=(libgtest-dev libgmock-dev)
 readonly PICTURE_PACKAGES=(mesa-vulkan-drivers libvulkan1)  # Rerun draws without a screen by software Vulkan
 readonly WINDOW_PACKAGES=(mesa-vulkan-drivers libvulkan1 libxkbcommon-x11-0 libgl1)
