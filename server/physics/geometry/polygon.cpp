@@ -31,9 +31,16 @@ std::string text_of(double value) {
   return out.str();
 }
 
-std::string text_of(const Vec2& v) { return "(" + text_of(v.x()) + ", " + text_of(v.y()) + ")"; }
+std::string text_of(const Vec2& v) {
+  std::string out("(");
+  out.append(text_of(v.x())).append(", ").append(text_of(v.y())).append(")");
+  return out;
+}
 
-std::string vertex_field(std::size_t i) { return "vertices[" + std::to_string(i) + "]"; }
+std::string vertex_field(std::size_t i) {
+  std::string out("vertices[");
+  return out.append(std::to_string(i)).append("]");
+}
 
 double extent_of(const Points& points) {
   Vec2 low = points[0], high = points[0];
