@@ -117,14 +117,14 @@ std::string encode_info(const RoomView& view, const SceneDef& scene, const RoomS
 }
 
 std::string encode_state(const RoomView& view, const SceneDef& scene, const RoomSettings& settings,
-                         const HostInfo& host) {
+                         const HostInfo& host, bool with_saved_state) {
   google::protobuf::Arena arena;
   auto* message = google::protobuf::Arena::CreateMessage<v1::RoomState>(&arena);
   write_info(view, scene, settings, host, message->mutable_info());
   write_scene_without_bodies(scene, message->mutable_scene());
   for (const BodyInfo& info : view.bodies) write_body_info(info, message->add_bodies());
   if (view.frame) write_snapshot(*view.frame, message->mutable_snapshot());
-  message->set_saved_state(view.saved_state.data(), view.saved_state.size());
+  if (with_saved_state) message->set_saved_state(view.saved_state.data(), view.saved_state.size());
   return message->SerializeAsString();
 }
 

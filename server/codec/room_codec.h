@@ -23,7 +23,7 @@ std::string encode_info(const RoomView& view, const SceneDef& scene, const RoomS
                         const HostInfo& host);
 // Of a view with state.
 std::string encode_state(const RoomView& view, const SceneDef& scene, const RoomSettings& settings,
-                         const HostInfo& host);
+                         const HostInfo& host, bool with_saved_state);
 
 void write_query_result(const QueryResult& result, v1::QueryResult* out);
 

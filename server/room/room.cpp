@@ -1,17 +1,29 @@
 #include "room/room.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "room/answer_query.h"
 
 namespace urto {
+namespace {
+
+std::uint32_t snapshot_interval(double rate_hz, double time_step) {
+  constexpr double kTicksMax = 1e9;
+  const double ticks = 1 / (rate_hz * time_step);
+  if (!std::isfinite(ticks)) return 1;  // of a time step that the engine will refuse
+  return static_cast<std::uint32_t>(std::clamp(std::round(ticks), 1.0, kTicksMax));
+}
+
+}  // namespace
 
 Room::Room(RoomSettings settings, SceneDef scene, WorldFactory make_world)
     : settings_(std::move(settings)),
       scene_(std::move(scene)),
       make_world_(std::move(make_world)),
+      ticks_per_snapshot_(snapshot_interval(settings_.snapshot_rate_hz, scene_.world.time_step)),
       queue_(settings_.limits),
       roster_(settings_.limits.members_max),
       events_(settings_.limits.events_kept_max),
@@ -26,6 +38,10 @@ std::optional<BatchReply> Room::submit(Submission submission) {
   auto rejection = queue_.push(std::move(submission));
   if (!rejection) return std::nullopt;
   if (!wants_answer) report_rejection(user, sequence, *rejection);
+  return rejected(sequence, std::move(*rejection));
+}
+
+BatchReply Room::rejected(std::uint64_t sequence, Rejection rejection) const {
   const std::lock_guard lock(shared_mutex_);
   return BatchReply{sequence, shared_epoch_, shared_tick_, {}, std::move(rejection)};
 }
@@ -56,6 +72,12 @@ TickResult Room::tick() {
 }
 
 std::uint64_t Room::ticks_owed() const { return waiting_steps_.empty() ? 0 : waiting_steps_.back().last_tick - tick_; }
+
+bool Room::has_work() const {
+  if (ticks_owed() > 0 || !queue_.empty()) return true;
+  const std::lock_guard lock(shared_mutex_);
+  return !refusals_.empty() || refusals_dropped_ > 0;
+}
 
 void Room::step_world() {
   world_->step();
@@ -125,6 +147,18 @@ std::vector<Answer> Room::cancel_steps(const std::string& reason) {
   return answers;
 }
 
+std::vector<Answer> Room::close() {
+  std::vector<Answer> answers = cancel_steps("The room is closing; the commands before it in its batch were done.");
+  while (!queue_.empty()) {
+    for (const Submission& submission : queue_.drain(turn_)) {
+      if (submission.ticket == kNoAnswer) continue;
+      Rejection rejection{RejectionCode::kCancelled, 0, "", "", "The room is closing."};
+      answers.push_back({submission.ticket, {submission.batch.sequence, epoch_, tick_, {}, std::move(rejection)}});
+    }
+  }
+  return answers;
+}
+
 void Room::capture_frame(TickResult& result) {
   if (!frame_is_due(result.stepped)) return;
   result.frame = make_frame(false);
@@ -134,7 +168,7 @@ void Room::capture_frame(TickResult& result) {
 // Every n-th tick; in a paused room whatever shows a change, and the last tick that was owed.
 bool Room::frame_is_due(bool stepped) const {
   if (!stepped) return changed_;
-  return tick_ % settings_.ticks_per_snapshot == 0 || (paused_ && ticks_owed() == 0);
+  return tick_ % ticks_per_snapshot_ == 0 || (paused_ && ticks_owed() == 0);
 }
 
 std::shared_ptr<const Frame> Room::make_frame(bool full) const {

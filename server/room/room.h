@@ -27,9 +27,9 @@ struct RoomSettings {
   Limits limits;
   Roles roles;
   bool paused = false;
-  double time_scale = 1;                 // kTimeScaleMin to kTimeScaleMax
-  std::uint32_t ticks_per_snapshot = 1;  // ≥ 1: every n-th tick gives a frame
-  bool publish_hash = false;             // state hash in every frame
+  double time_scale = 1;         // kTimeScaleMin to kTimeScaleMax
+  double snapshot_rate_hz = 60;  // > 0: frames per simulated second, at most one a tick
+  bool publish_hash = false;     // state hash in every frame
 };
 
 // What one call of Room::tick brought about.
@@ -73,20 +73,24 @@ class Room {
   // Any thread. A batch whose sender waits for no answer was rejected outside the room; the members hear of it.
   void report_rejection(const std::string& user, std::uint64_t sequence, const Rejection& rejection);
 
+  // Any thread. The answer to a batch that was rejected outside the room.
+  BatchReply rejected(std::uint64_t sequence, Rejection rejection) const;
+
   // Applies what is queued and, if the room runs or owes ticks, advances it by one time step.
   TickResult tick();
 
   bool paused() const { return paused_; }
   double time_scale() const { return time_scale_; }
-  std::uint64_t ticks_owed() const;                                      // to step commands
-  bool has_work() const { return ticks_owed() > 0 || !queue_.empty(); }  // a paused room needs a tick() now
+  std::uint32_t ticks_per_snapshot() const { return ticks_per_snapshot_; }
+  std::uint64_t ticks_owed() const;  // to step commands
+  bool has_work() const;             // a paused room needs a tick() now
 
   void join(const Member& member);
   void leave(const Member& member);
   void add_overruns(std::uint64_t ticks) { overrun_count_ += ticks; }
 
-  // Answers every step that still waits with kCancelled; for the end of the room.
-  std::vector<Answer> cancel_steps(const std::string& reason);
+  // Answers with kCancelled whatever still waits; for the end of the room.
+  std::vector<Answer> close();
 
   Expected<RoomView> view(const ViewParts& parts) const;
   EventSlice events_since(std::uint64_t sequence, std::size_t count_max) const;
@@ -115,6 +119,7 @@ class Room {
   void apply_commands(TickResult& result);
   void apply_batch(Submission& submission, TickResult& result);
   void reject_batch(const Submission& submission, Rejection rejection, TickResult& result);
+  std::vector<Answer> cancel_steps(const std::string& reason);
   void step_world();
   void end_forces();
   void log_contacts();
@@ -131,6 +136,7 @@ class Room {
   const RoomSettings settings_;
   const SceneDef scene_;
   const WorldFactory make_world_;
+  const std::uint32_t ticks_per_snapshot_;
 
   std::unique_ptr<World> world_;
   BodyRegistry bodies_;

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "app/server.h"
+
+namespace urto::app {
+
+// Monotonic nanoseconds.
+std::uint64_t monotonic_ns();
+
+// Wakes a thread that waits for a time.
+class Waker {
+ public:
+  void wake();
+  // Returns at that time, or earlier if woken since the last call; without a time, when woken.
+  void wait_until(std::optional<std::uint64_t> time_ns);
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool woken_ = false;
+};
+
+// The threads of a server: one ticks, one sends snapshots, one events, one answers.
+class ServerThreads {
+ public:
+  ServerThreads(Server& server, Waker& waker);
+  ~ServerThreads();  // stops
+
+  // Ends the ticks, answers what waits, sends what is left. The server listens no more.
+  void stop();
+
+ private:
+  void tick_until_stopped();
+
+  Server& server_;
+  Waker& waker_;
+  std::mutex mutex_;
+  bool stopping_ = false;
+  std::thread ticks_, frames_, events_, replies_;
+};
+
+}  // namespace urto::app
