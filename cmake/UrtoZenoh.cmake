@@ -33,7 +33,7 @@ add_custom_command(
     "CXX=${CMAKE_CXX_COMPILER}" "${URTO_CARGO}" build --release --locked
   COMMAND "${CMAKE_COMMAND}" -E touch "${URTO_ZENOH_LIBRARY}"  # cargo leaves it alone when only a comment changed
   DEPENDS
-    "${URTO_ZENOH_SOURCE}/src/lib.rs" "${URTO_ZENOH_SOURCE}/build.rs" "${URTO_ZENOH_SOURCE}/handlers.h"
+    "${URTO_ZENOH_SOURCE}/src/lib.rs" "${URTO_ZENOH_SOURCE}/src/guard.rs" "${URTO_ZENOH_SOURCE}/build.rs" "${URTO_ZENOH_SOURCE}/handlers.h"
     "${URTO_ZENOH_SOURCE}/Cargo.toml" "${URTO_ZENOH_SOURCE}/Cargo.lock"
   WORKING_DIRECTORY "${URTO_ZENOH_SOURCE}"
   COMMENT "Building the Zenoh bridge with cargo (the first time takes minutes)"

@@ -1,5 +1,6 @@
 #include "transport/key_expression.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,8 @@ namespace {
 
 // Zenoh reserves these, and '*' outside of a chunk that is a wildcard.
 constexpr std::string_view kReserved = "#?$";
+
+bool is_printable(char c) { return c > ' ' && c <= '~'; }
 
 std::vector<std::string_view> chunks_of(std::string_view keys) {
   std::vector<std::string_view> chunks;
@@ -38,6 +41,7 @@ TransportStatus check_key_expression(std::string_view key_expression) {
     if (is_wild) continue;
     if (chunk.find('*') != std::string_view::npos) return bad(key_expression, "a wildcard is a chunk of its own");
     if (chunk.find_first_of(kReserved) != std::string_view::npos) return bad(key_expression, "# ? $ are reserved");
+    if (!std::all_of(chunk.begin(), chunk.end(), is_printable)) return bad(key_expression, "only ASCII without blanks");
   }
   return {};
 }

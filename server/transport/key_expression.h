@@ -7,8 +7,8 @@
 namespace urto {
 
 // Keys are chunks joined by '/', as in "urto/v1/lab/snapshot". In a key expression a chunk may be "*" (any one chunk)
-// or "**" (any number of chunks, none too). This is the part of Zenoh's key expression language that Urto uses; the
-// wildcard inside a chunk ("$*") is not in it.
+// or "**" (any number of chunks, none too). This is the part of Zenoh's key expression language that Urto uses:
+// printable ASCII, and no wildcard inside a chunk ("$*").
 // https://github.com/eclipse-zenoh/roadmap/blob/main/rfcs/ALL/Key%20Expressions.md
 TransportStatus check_key(std::string_view key);                        // no wildcards
 TransportStatus check_key_expression(std::string_view key_expression);  // in Zenoh's canonical form

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <string>
 #include <string_view>
 
@@ -12,6 +13,9 @@ struct IntersectionCase {
   std::string_view a;
   std::string_view b;
   bool expected;
+  friend std::ostream& operator<<(std::ostream& out, const IntersectionCase& each) {
+    return out << each.a << (each.expected ? " meets " : " misses ") << each.b;
+  }
 };
 
 class Intersection : public testing::TestWithParam<IntersectionCase> {};
@@ -45,7 +49,8 @@ TEST(KeyExpression, KeysAndExpressionsAreToldApart) {
 }
 
 TEST(KeyExpression, BadOnesAreNamed) {
-  for (const std::string_view bad : {"", "/a", "a/", "a//b", "a*/b", "a/$*", "a/**/**", "**/*", "a#b", "a?b"}) {
+  for (const std::string_view bad :
+       {"", "/a", "a/", "a//b", "a*/b", "a/$*", "a/**/**", "**/*", "a#b", "a?b", "a b", "a\tb", "\xff"}) {
     const TransportStatus status = check_key_expression(bad);
     ASSERT_FALSE(status) << bad;
     EXPECT_EQ(status.error().code, TransportErrorCode::kBadKey);

@@ -5,16 +5,18 @@
 //!   a panic nor a C++ exception crosses the border or reaches Zenoh's threads.
 //! - No setting lives here: `open` takes the whole configuration as the JSON that config.cpp writes.
 
-use std::panic::{catch_unwind, AssertUnwindSafe};
 use std::time::Duration;
 
 use cxx::UniquePtr;
+use guard::{guarded, report, Error};
 use zenoh::bytes::Encoding;
 use zenoh::key_expr::KeyExpr;
 use zenoh::qos::{CongestionControl, Priority, Reliability};
 use zenoh::query::{ConsolidationMode, QueryTarget};
 use zenoh::sample::SampleKind;
 use zenoh::{Config, Wait};
+
+mod guard;
 
 #[cxx::bridge(namespace = "urto::zenoh")]
 mod ffi {
@@ -97,33 +99,12 @@ unsafe impl Sync for ffi::QueryHandler {}
 unsafe impl Send for ffi::ReplyHandler {}
 unsafe impl Sync for ffi::ReplyHandler {}
 
-type Error = zenoh::Error;
-
 pub struct Session(zenoh::Session);
 pub struct Publisher(zenoh::pubsub::Publisher<'static>);
 pub struct Subscriber(#[allow(dead_code)] zenoh::pubsub::Subscriber<()>);
 pub struct Queryable(#[allow(dead_code)] zenoh::query::Queryable<()>);
 pub struct Token(#[allow(dead_code)] zenoh::liveliness::LivelinessToken);
 pub struct IncomingQuery(zenoh::query::Query);
-
-/// Runs what C++ asked for; a panic becomes an error like any other.
-fn guarded<T>(work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
-    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| Err(format!("panic: {}", panic_text(&*panic)).into()))
-}
-
-/// Runs a callback; what it threw, or a panic on the way to it, is told on stderr and ends there.
-fn report(work: impl FnOnce() -> Result<(), cxx::Exception>) {
-    match catch_unwind(AssertUnwindSafe(work)) {
-        Ok(Ok(())) => {}
-        Ok(Err(exception)) => eprintln!("urto: a transport callback threw: {exception}"),
-        Err(panic) => eprintln!("urto: panic in a transport callback: {}", panic_text(&*panic)),
-    }
-}
-
-fn panic_text(panic: &(dyn std::any::Any + Send)) -> String {
-    let text = panic.downcast_ref::<&str>().map(|text| text.to_string());
-    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "(no text)".to_string())
-}
 
 /// Calls `on_done` when Zenoh drops the callback of a get, which it does after the last reply.
 struct ReplySink(UniquePtr<ffi::ReplyHandler>);
