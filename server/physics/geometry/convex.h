@@ -17,7 +17,8 @@ struct Convex {
   Vec<S> normals[kPolygonVerticesMax];
   Vec<S> centroid = Vec<S>::Zero();
   std::uint32_t count = 0;
-  S radius = 0;  // m ≥ 0
+  std::uint32_t unused = 0;  // no padding bytes: records are hashed as they lie in memory
+  S radius = 0;              // m ≥ 0
 
   Aabb<S> bounds(const Transform<S>& pose) const {
     Vec<S> v = pose.apply(vertices[0]);

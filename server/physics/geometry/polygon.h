@@ -9,9 +9,9 @@ namespace urto {
 
 // Area, centroid and second moment of a flat shape of density 1.
 struct AreaProperties {
-  double area = 0;          // m²
-  Vec2 centroid{0, 0};      // m
-  double second_moment = 0; // m⁴ about the centroid
+  double area = 0;           // m²
+  Vec2 centroid{0, 0};       // m
+  double second_moment = 0;  // m⁴ about the centroid
 };
 
 AreaProperties polygon_area_properties(const std::vector<Vec2>& counter_clockwise);

@@ -1,0 +1,296 @@
+#include "physics/body_factory.h"
+
+#include "physics/bounds.h"
+#include "physics/constants.h"
+#include "physics/contact_graph.h"
+#include "physics/geometry/polygon.h"
+
+namespace urto {
+namespace {
+
+struct Part {
+  Geometry geometry;  // a convex polygon, a box or a circle
+  const ShapeDef* def;
+  AreaProperties area;
+};
+
+// A body's shapes with concave polygons taken apart.
+std::vector<Part> convex_parts(const BodyDef& def) {
+  std::vector<Part> parts;
+  for (const ShapeDef& shape : def.shapes) {
+    if (const auto* box = std::get_if<Box>(&shape.geometry)) {
+      parts.push_back({*box, &shape, box_area_properties(box->width, box->height, box->center)});
+    } else if (const auto* circle = std::get_if<Circle>(&shape.geometry)) {
+      parts.push_back({*circle, &shape, circle_area_properties(circle->radius, circle->center)});
+    } else {
+      auto convex = decompose_polygon(std::get<Polygon>(shape.geometry).vertices);
+      for (std::vector<Vec2>& vertices : *convex) {
+        const AreaProperties area = polygon_area_properties(vertices);
+        parts.push_back({Polygon{std::move(vertices)}, &shape, area});
+      }
+    }
+  }
+  return parts;
+}
+
+MassProperties mass_of(const BodyDef& def, const std::vector<Part>& parts) {
+  MassProperties out;
+  Vec2 moment(0, 0);
+  for (const Part& part : parts) {
+    if (part.def->sensor) continue;
+    const double mass = part.area.area * part.def->material.density;
+    out.mass += mass;
+    moment += mass * part.area.centroid;
+  }
+  if (out.mass > 0) out.center_of_mass = moment / out.mass;
+  for (const Part& part : parts) {  // parallel axes (Huygens–Steiner)
+    if (part.def->sensor) continue;
+    const Vec2 r = part.area.centroid - out.center_of_mass;
+    out.inertia += part.def->material.density * (part.area.second_moment + part.area.area * dot<double>(r, r));
+  }
+  if (def.mass) {
+    out.inertia *= *def.mass / out.mass;
+    out.mass = *def.mass;
+  }
+  return out;
+}
+
+template <class S>
+void set_polygon(Convex<S>& convex, const std::vector<Vec2>& vertices, const Vec2& centroid) {
+  convex.count = static_cast<std::uint32_t>(vertices.size());
+  convex.centroid = centroid.cast<S>();
+  for (std::uint32_t i = 0; i < convex.count; ++i) {
+    const Vec2 edge = vertices[i + 1 < convex.count ? i + 1 : 0] - vertices[i];
+    convex.vertices[i] = vertices[i].cast<S>();
+    convex.normals[i] = (cross<double>(edge, 1.0) / length<double>(edge)).cast<S>();
+  }
+}
+
+template <class S>
+void set_box(Convex<S>& convex, const Box& box) {
+  const Rotation<double> q = Rotation<double>::from_angle(box.angle);
+  const double hw = 0.5 * box.width, hh = 0.5 * box.height;
+  // normals[0] is down, normals[1] right, as the tight bounds of boxes expect.
+  const Vec2 corners[4] = {{-hw, -hh}, {hw, -hh}, {hw, hh}, {-hw, hh}};
+  const Vec2 normals[4] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
+  convex.count = 4;
+  convex.centroid = box.center.cast<S>();
+  for (int i = 0; i < 4; ++i) {
+    convex.vertices[i] = (box.center + q.apply(corners[i])).cast<S>();
+    convex.normals[i] = q.apply(normals[i]).cast<S>();
+  }
+}
+
+// Distance from the centroid to the nearest face: how far the shape may move before its centroid is through.
+template <class S>
+S inner_radius(const Convex<S>& convex) {
+  if (convex.count == 1) return convex.radius;
+  S least = dot<S>(convex.normals[0], convex.vertices[0] - convex.centroid);
+  for (std::uint32_t i = 1; i < convex.count; ++i)
+    least = min_of(least, dot<S>(convex.normals[i], convex.vertices[i] - convex.centroid));
+  return least + convex.radius;
+}
+
+template <class S>
+S outer_radius(const Convex<S>& convex, const Vec<S>& center) {
+  S most = S(0);
+  for (std::uint32_t i = 0; i < convex.count; ++i) most = max_of(most, length<S>(convex.vertices[i] - center));
+  return most + convex.radius;
+}
+
+template <class S>
+std::uint32_t take_shape_slot(WorldData<S>& world) {
+  if (!world.free_shapes.empty()) {
+    const std::uint32_t slot = world.free_shapes.back();
+    world.free_shapes.pop_back();
+    return slot;
+  }
+  world.shapes.emplace_back();
+  world.convexes.emplace_back();
+  return static_cast<std::uint32_t>(world.shapes.size() - 1);
+}
+
+template <class S>
+void create_shape(WorldData<S>& world, std::uint32_t body_slot, const Part& part) {
+  const Proxy proxy = take_shape_slot(world);
+  Shape<S>& shape = world.shapes[proxy];
+  Convex<S>& convex = world.convexes[proxy];
+  shape = Shape<S>{};
+  convex = Convex<S>{};
+  if (const auto* box = std::get_if<Box>(&part.geometry)) {
+    shape.kind = static_cast<std::uint32_t>(ShapeKind::kBox);
+    shape.half_width = S(0.5 * box->width);
+    shape.half_height = S(0.5 * box->height);
+    set_box(convex, *box);
+  } else if (const auto* circle = std::get_if<Circle>(&part.geometry)) {
+    shape.kind = static_cast<std::uint32_t>(ShapeKind::kCircle);
+    convex.count = 1;
+    convex.centroid = convex.vertices[0] = circle->center.cast<S>();
+    convex.radius = S(circle->radius);
+  } else {
+    shape.kind = static_cast<std::uint32_t>(ShapeKind::kPolygon);
+    set_polygon(convex, std::get<Polygon>(part.geometry).vertices, part.area.centroid);
+  }
+  Body<S>& body = world.bodies[body_slot];
+  shape.body = body_slot;
+  shape.next = body.first_shape;
+  shape.flags = kShapeAlive | (part.def->sensor ? kShapeSensor : 0u);
+  shape.category = part.def->filter.category;
+  shape.mask = part.def->filter.mask;
+  shape.friction = S(part.def->material.friction);
+  shape.restitution = S(part.def->material.restitution);
+  const S inner = inner_radius(convex);
+  shape.reach = min_of(S(kSpeculativeDistanceMax), S(kSpeculativeFraction) * inner);
+  // What never moves needs no room to move in.
+  shape.margin = body.body_type() == BodyType::kStatic
+                     ? S(0)
+                     : clamp_to(S(kFatMarginFraction) * outer_radius<S>(convex, convex.centroid), S(kFatMarginMin), S(kFatMarginMax));
+  body.first_shape = proxy;
+  ++body.shape_count;
+  if (!part.def->sensor || body.extent_min == S(0))
+    body.extent_min = body.extent_min == S(0) ? inner : min_of(body.extent_min, inner);
+  body.extent_max = max_of(body.extent_max, outer_radius(convex, body.local_center()));
+}
+
+template <class S>
+void set_mass(Body<S>& body, const BodyDef& def, const MassProperties& mass) {
+  body.local_x = S(mass.center_of_mass.x());
+  body.local_y = S(mass.center_of_mass.y());
+  if (def.type != BodyType::kDynamic) return;
+  body.mass = S(mass.mass);
+  body.inv_mass = S(1.0 / mass.mass);
+  body.inertia = S(mass.inertia);
+  body.inv_inertia = def.fixed_rotation ? S(0) : S(1.0 / mass.inertia);
+}
+
+template <class S>
+void set_pose(Body<S>& body, const BodyDef& def) {
+  body.angle = wrap_angle(S(def.angle));
+  sin_cos(body.angle, body.s, body.c);
+  const Vec<S> center = def.position.cast<S>() + body.rotation().apply(body.local_center());
+  body.x = center.x();
+  body.y = center.y();
+}
+
+template <class S>
+std::uint32_t take_body_slot(WorldData<S>& world) {
+  if (!world.free_bodies.empty()) {
+    const std::uint32_t slot = world.free_bodies.back();
+    world.free_bodies.pop_back();
+    return slot;
+  }
+  world.bodies.emplace_back();
+  world.motions.emplace_back();
+  return static_cast<std::uint32_t>(world.bodies.size() - 1);
+}
+
+void add(std::uint32_t& count, bool condition, int sign) {
+  if (condition) count += static_cast<std::uint32_t>(sign);
+}
+
+}  // namespace
+
+template <class S>
+void count_needs(WorldData<S>& world, std::uint32_t slot, int sign) {
+  Needs& needs = world.needs;
+  const Body<S>& body = world.bodies[slot];
+  add(needs.bodies, true, sign);
+  add(needs.dynamic_bodies, body.dynamic(), sign);
+  add(needs.rotating_bodies, body.dynamic() && body.inv_inertia > S(0), sign);
+  add(needs.damped_bodies, body.linear_damping > S(0) || body.angular_damping > S(0), sign);
+  for (Proxy p = body.first_shape; p != kNone; p = world.shapes[p].next) {
+    const Shape<S>& shape = world.shapes[p];
+    add(needs.shapes, true, sign);
+    add(needs.circles, shape.shape_kind() == ShapeKind::kCircle, sign);
+    add(needs.boxes, shape.shape_kind() == ShapeKind::kBox, sign);
+    add(needs.polygons, shape.shape_kind() == ShapeKind::kPolygon, sign);
+    add(needs.sensors, shape.sensor(), sign);
+    add(needs.rough_shapes, shape.friction > S(0), sign);
+    add(needs.bouncing_shapes, shape.restitution > S(0), sign);
+  }
+}
+
+template <class S>
+void update_model(WorldData<S>& world) {
+  const BroadPhaseKind before = world.model.broad_phase;
+  world.model = choose_model(world.settings, world.needs);
+  if (world.broad_phase && before == world.model.broad_phase) return;
+  world.broad_phase = BroadPhase<S>::create(world.model.broad_phase);
+  for (Proxy p = 0; p < world.shapes.size(); ++p) {
+    const Shape<S>& shape = world.shapes[p];
+    if (shape.alive()) world.broad_phase->insert(p, shape.fat, world.bodies[shape.body].body_type() == BodyType::kStatic);
+  }
+}
+
+template <class S>
+std::uint32_t create_body(WorldData<S>& world, const BodyDef& def) {
+  const std::vector<Part> parts = convex_parts(def);
+  const std::uint32_t slot = take_body_slot(world);
+  Body<S>& body = world.bodies[slot];
+  const std::uint32_t generation = body.generation;
+  body = Body<S>{};
+  world.motions[slot] = Motion<S>{};
+  body.generation = generation;
+  body.type = static_cast<std::uint32_t>(def.type);
+  body.flags = kBodyAlive | (def.fixed_rotation ? kBodyFixedRotation : 0u);
+  body.linear_damping = S(def.linear_damping);
+  body.angular_damping = S(def.angular_damping);
+  body.gravity_scale = S(def.gravity_scale);
+  set_mass(body, def, mass_of(def, parts));
+  set_pose(body, def);
+  if (def.type != BodyType::kStatic) {
+    world.motions[slot].vx = S(def.velocity.x());
+    world.motions[slot].vy = S(def.velocity.y());
+    world.motions[slot].w = def.fixed_rotation ? S(0) : S(def.angular_velocity);
+  }
+  for (const Part& part : parts) create_shape(world, slot, part);
+  count_needs(world, slot, +1);
+  const bool moving = def.velocity != Vec2(0, 0) || def.angular_velocity != 0;
+  if (def.type == BodyType::kKinematic ? moving : def.awake) wake_body(world, slot);
+  const bool still = def.type == BodyType::kStatic;
+  for (Proxy p = body.first_shape; p != kNone; p = world.shapes[p].next) {
+    Shape<S>& shape = world.shapes[p];
+    shape.fat = swept_bounds(world, p).expanded(shape.reach + shape.margin);
+    if (world.broad_phase) world.broad_phase->insert(p, shape.fat, still);
+    mark_moved(world, p);
+  }
+  update_model(world);
+  return slot;
+}
+
+template <class S>
+void destroy_body(WorldData<S>& world, std::uint32_t slot) {
+  Body<S>& body = world.bodies[slot];
+  wake_neighbours(world, slot);
+  while (body.first_contact != kNone) destroy_contact(world, body.first_contact >> 1);
+  put_to_sleep(world, slot);
+  count_needs(world, slot, -1);
+  std::vector<Proxy>& moved = world.moved;
+  for (Proxy p = body.first_shape; p != kNone;) {
+    Shape<S>& shape = world.shapes[p];
+    const Proxy next = shape.next;
+    if (shape.flags & kShapeMoved) std::erase(moved, p);
+    world.broad_phase->remove(p);
+    shape = Shape<S>{};
+    world.convexes[p] = Convex<S>{};
+    world.free_shapes.push_back(p);
+    p = next;
+  }
+  const std::uint32_t generation = body.generation + 1;
+  body = Body<S>{};
+  body.generation = generation;
+  world.motions[slot] = Motion<S>{};
+  world.free_bodies.push_back(slot);
+  update_model(world);
+}
+
+#define URTO_INSTANTIATE(S)                                                \
+  template std::uint32_t create_body(WorldData<S>&, const BodyDef&);       \
+  template void destroy_body(WorldData<S>&, std::uint32_t);                \
+  template void count_needs(WorldData<S>&, std::uint32_t, int);            \
+  template void update_model(WorldData<S>&);
+URTO_INSTANTIATE(float)
+URTO_INSTANTIATE(double)
+#undef URTO_INSTANTIATE
+
+}  // namespace urto

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "physics/data.h"
+
+namespace urto {
+
+// Keeps the broad phase's bounds around the bodies, and finds the pairs they make.
+
+// Tight bounds of a shape now, stretched over the way its body will come in one step at its velocity.
+template <class S>
+Aabb<S> swept_bounds(const WorldData<S>& world, Proxy proxy);
+
+// Checks a body's proxies after it moved; those that left their fat bounds are moved in the broad phase.
+template <class S>
+void refresh_bounds(WorldData<S>& world, std::uint32_t slot);
+
+// Sets a body's bounds anew as they should be now, whatever they were.
+template <class S>
+void reset_bounds(WorldData<S>& world, std::uint32_t slot);
+
+// Puts a proxy into the list of those whose pairs are sought at the next step.
+template <class S>
+void mark_moved(WorldData<S>& world, Proxy proxy);
+
+// The phase: makes contacts of new pairs among moved proxies that filters and body types let touch.
+template <class S>
+void update_broad_phase(WorldData<S>& world);
+
+}  // namespace urto

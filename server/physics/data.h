@@ -1,0 +1,89 @@
+#pragma once
+
+// Everything a world is made of, as plain arrays, and nothing that acts on it. The phases of the step are free
+// functions on a WorldData; what the future depends on is listed in for_each_state_field.
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "physics/body.h"
+#include "physics/broad_phase/broad_phase.h"
+#include "physics/contact.h"
+#include "physics/model.h"
+#include "physics/pair_set.h"
+#include "physics/shape.h"
+#include "physics/world.h"
+
+namespace urto {
+
+// Buffers that live for one phase; kept for their capacity only.
+template <class S>
+struct Scratch {
+  std::vector<std::pair<Proxy, Proxy>> pairs;
+  std::vector<Proxy> proxies;
+  std::vector<std::uint32_t> stack;
+  std::vector<std::uint32_t> parent;     // union-find, by awake index
+  std::vector<std::uint8_t> restless;    // by root
+  std::vector<std::uint64_t> colors;     // by body slot
+  std::vector<std::uint32_t> fast;       // body slots
+};
+
+template <class S>
+struct WorldData {
+  WorldSettings settings;
+  std::uint64_t step_count = 0;
+
+  std::vector<Body<S>> bodies;    // by slot
+  std::vector<Motion<S>> motions; // by slot
+  std::vector<std::uint32_t> free_bodies;
+  std::vector<Shape<S>> shapes;    // by slot: the proxies of the broad phase
+  std::vector<Convex<S>> convexes; // by shape slot
+  std::vector<std::uint32_t> free_shapes;
+  std::vector<Contact<S>> contacts; // by slot
+  std::vector<std::uint32_t> free_contacts;
+
+  std::vector<std::uint32_t> awake;   // body slots: awake and not static
+  std::vector<std::uint32_t> active;  // contact slots with an awake body
+  std::vector<Proxy> moved;           // left their fat bounds since pairs were last sought
+
+  // Derived: rebuilt by restore.
+  Needs needs;
+  Model model;
+  std::unique_ptr<BroadPhase<S>> broad_phase;
+  PairSet pair_set;
+
+  // Of the last step.
+  std::vector<ContactEvent> events;
+  double penetration_max = 0;
+
+  Scratch<S> scratch;
+
+  // The arrays that make up the saved state.
+  template <class Self, class Visitor>
+  static void for_each_state_field(Self& self, Visitor&& visit) {
+    visit("step_count", self.step_count);
+    visit("bodies", self.bodies);
+    visit("motions", self.motions);
+    visit("free_bodies", self.free_bodies);
+    visit("shapes", self.shapes);
+    visit("convexes", self.convexes);
+    visit("free_shapes", self.free_shapes);
+    visit("contacts", self.contacts);
+    visit("free_contacts", self.free_contacts);
+    visit("awake", self.awake);
+    visit("active", self.active);
+    visit("moved", self.moved);
+  }
+};
+
+inline BodyId id_of(std::uint32_t slot, std::uint32_t generation) {
+  return (static_cast<BodyId>(generation) << 32) | (slot + 1);
+}
+template <class S>
+inline BodyId id_of(const WorldData<S>& world, std::uint32_t slot) {
+  return id_of(slot, world.bodies[slot].generation);
+}
+
+}  // namespace urto

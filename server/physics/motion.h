@@ -1,0 +1,40 @@
+#pragma once
+
+#include "physics/data.h"
+#include "physics/force_field.h"
+
+namespace urto {
+
+// Moves bodies: velocities from forces, positions from velocities. `h` is a sub-step in seconds.
+
+template <class S>
+class Mover {
+ public:
+  Mover(const WorldData<S>& world, S h);
+
+  // v += h a, then damping (implicit: v / (1 + h d), stable for any d).
+  void integrate_velocity(const Body<S>& body, Motion<S>& motion) const;
+  // x += h v, angle += h ω.
+  void integrate_position(const Body<S>& body, Motion<S>& motion) const;
+  // Both at once by the scene's integrator, for a body that nothing touches.
+  void fly(const Body<S>& body, Motion<S>& motion) const;
+
+ private:
+  Vec<S> acceleration(const Body<S>& body, const Motion<S>& motion, const Vec<S>& x, const Vec<S>& v) const;
+
+  const Model& model_;
+  Integrator integrator_;
+  Vec<S> gravity_;
+  Fields<S> fields_;
+  S h_;
+};
+
+// Ends a step for one body: takes over the way it came, and counts how long it has been slow.
+template <class S>
+void finish_motion(Body<S>& body, Motion<S>& motion, S time_step);
+
+// The rotation by a small or large angle, without the full reduction when it is small.
+template <class S>
+void rotation_by(S angle, S& c, S& s);
+
+}  // namespace urto

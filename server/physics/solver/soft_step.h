@@ -1,0 +1,18 @@
+#pragma once
+
+#include "physics/solver/constraint.h"
+
+namespace urto {
+
+// The default solver: sub-stepped soft contacts with warm start, friction, restitution and a relaxation pass, after
+// "Soft Step" of Box2D v3 (Catto, "Solver2D", 2024). Ours differs in that
+// - impulses act at one world point for both bodies throughout the step, so angular momentum is conserved;
+// - the soft contacts have a preload, so that stacks do not stay sunk under their weight (constraint.cpp, Softness);
+// - two points of a manifold are solved together, so that a stack does not creep sideways.
+//
+// Per sub-step: integrate velocities, warm start, solve with bias, integrate positions, relax (solve without bias).
+// After the last: restitution, store impulses. `set` is a buffer that keeps its capacity between steps.
+template <class S>
+void solve_soft_step(WorldData<S>& world, ConstraintSet<S>& set);
+
+}  // namespace urto
