@@ -29,8 +29,9 @@ as_root() {
   fi
 }
 
-installed_packages() { dpkg-query -W -f='${db:Status-Status} ${Package}\n' "$@" 2>/dev/null | sed -n 's/^installed //p'; }
-package_candidate() { LC_ALL=C apt-cache policy "$1" 2>/dev/null | sed -n 's/^  Candidate: //p' | grep -v '(none)'; }
+# Those of the named ones that are installed. (dpkg-query fails if it does not know one of them; that is no failure here.)
+installed_packages() { { dpkg-query -W -f='${db:Status-Status} ${Package}\n' "$@" 2>/dev/null || true; } | sed -n 's/^installed //p'; }
+package_candidate() { LC_ALL=C apt-cache policy "$1" 2>/dev/null | sed -n 's/^  Candidate: //p' | sed '/(none)/d'; }
 
 # apt_install PACKAGE…: installs the ones that are missing. It never removes a package.
 apt_install() {
