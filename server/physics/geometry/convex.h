@@ -20,6 +20,11 @@ struct Convex {
   std::uint32_t unused = 0;  // no padding bytes: records are hashed as they lie in memory
   S radius = 0;              // m ≥ 0
 
+  // Eigen leaves coefficients as they are; unused ones shall be zero in the saved state.
+  Convex() {
+    for (std::uint32_t i = 0; i < kPolygonVerticesMax; ++i) vertices[i] = normals[i] = Vec<S>::Zero();
+  }
+
   Aabb<S> bounds(const Transform<S>& pose) const {
     Vec<S> v = pose.apply(vertices[0]);
     Aabb<S> box{v, v};

@@ -210,17 +210,26 @@ Distance<S> finish_at_features(const Pair<S>& pair, const Face<S>& face, int rou
   const Interval<S> b(pair.b_vertices, pair.b.count, -face.normal, pair.slack);
   // b's interval is measured along the opposite direction.
   const S low = max_of(a.low, -b.high), high = min_of(a.high, -b.low);
-  return finish(pair, face, a.at(S(0.5) * (low + high)), rounds);
+  Distance<S> out = finish(pair, face, a.at(S(0.5) * (low + high)), rounds);
+  out.edge_a = a.high > a.low;
+  out.edge_b = b.high > b.low;
+  return out;
 }
 
 // Outside, the nearest point of the simplex to the origin is unique and put back on a.
 template <class S>
 Distance<S> finish_at_simplex(const Pair<S>& pair, const Face<S>& face, int rounds) {
   const Vec<S>& a0 = pair.a.vertices[face.from.a];
-  if (face.from.a == face.to.a) return finish(pair, face, a0, rounds);
-  const Vec<S> e = pair.edge(face.from, face.to);
-  const S u = clamp_to(-dot(e, face.from.w) / dot(e, e), S(0), S(1));
-  return finish(pair, face, Vec<S>(a0 + u * (pair.a.vertices[face.to.a] - a0)), rounds);
+  Vec<S> on_a = a0;
+  const bool edge_a = face.from.a != face.to.a, edge_b = face.from.b != face.to.b;
+  if (edge_a) {
+    const Vec<S> e = pair.edge(face.from, face.to);
+    on_a += clamp_to(-dot(e, face.from.w) / dot(e, e), S(0), S(1)) * (pair.a.vertices[face.to.a] - a0);
+  }
+  Distance<S> out = finish(pair, face, on_a, rounds);
+  out.edge_a = edge_a;
+  out.edge_b = edge_b;
+  return out;
 }
 
 // The largest separation along any edge normal of either shape: the exact answer for overlapping polygons, and what is

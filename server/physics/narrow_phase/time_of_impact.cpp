@@ -45,29 +45,39 @@ struct Mover {
   }
 };
 
-// A lower bound of height + rate·τ − bend·τ² for each corner's height along a fixed direction, τ in steps from now.
+// A lower bound of the height of an arm that turns, as height + rate·τ − bend·τ², τ in steps from now.
 //
-// A corner's height above its centre of mass is h·cos α + g·sin α after a turn of α. Up to a quarter turn
+// The height along a direction is h·cos α + g·sin α after a turn of α. Up to a quarter turn
 //   cos α ≥ 1 − α²/2, so  h·cos α ≥ h − max(h, 0)·α²/2, and
 //   α ≥ sin α ≥ α − kSineBend·α², so  g·sin α ≥ g·α − kSineBend·max(g, 0)·α².
 // The bound is exact in the first order, which makes the advancement converge quadratically, where the classic bound by
 // speed of the furthest corner (Mirtich 1996) converges linearly.
 template <class S>
+struct HeightBound {
+  S height, rate = S(0), bend = S(0);
+
+  HeightBound(const Vec<S>& up, const Vec<S>& arm, S turn) : height(dot(up, arm)) {
+    if (turn == S(0)) return;
+    const S size = absolute(turn);
+    const S g = turn < S(0) ? cross(up, arm) : -cross(up, arm);
+    rate = g * size;
+    bend = size * size * (S(0.5) * max_of(height, S(0)) + kSineBend<S> * max_of(g, S(0)));
+  }
+};
+
+// Those of all corners of a shape that turns by `turn` a step against the direction.
+template <class S>
 struct HeightBounds {
   S height[kPolygonVerticesMax], rate[kPolygonVerticesMax], bend[kPolygonVerticesMax];
   std::uint32_t count;
 
-  HeightBounds(const Mover<S>& mover, const Vec<S>& direction) : count(mover.shape.count) {
+  HeightBounds(const Mover<S>& mover, const Vec<S>& direction, S turn) : count(mover.shape.count) {
     const Vec<S> up = mover.q.apply_inverse(direction);
-    const S turn = absolute(mover.turn);
     for (std::uint32_t i = 0; i < count; ++i) {
-      const S h = dot(up, mover.arms[i]);
-      height[i] = h;
-      rate[i] = bend[i] = S(0);
-      if (turn == S(0)) continue;
-      const S g = mover.turn < S(0) ? cross(up, mover.arms[i]) : -cross(up, mover.arms[i]);
-      rate[i] = g * turn;
-      bend[i] = turn * turn * (S(0.5) * max_of(h, S(0)) + kSineBend<S> * max_of(g, S(0)));
+      const HeightBound<S> bound(up, mover.arms[i], turn);
+      height[i] = bound.height;
+      rate[i] = bound.rate;
+      bend[i] = bound.bend;
     }
   }
 
@@ -85,27 +95,36 @@ struct HeightBounds {
   }
 };
 
-// A lower bound of the separation along a fixed normal (from a to b) over the time to come. The sum of two minima of
-// concave functions and a linear one: concave, so that it falls below a level once only.
+// A lower bound of the separation along a normal (from a to b) over a span of time to come. The normal turns with the
+// body whose edge is nearest, or stays: any will do, but the right one makes the bound tight. Seen from the normal, the
+// bodies turn by so much less and the line between the centres turns back.
+//
+// The sum of two minima of concave functions and of a concave one: concave, so that it falls below a level once only.
 template <class S>
 struct SeparationBound {
+  S span;  // up to where the bound holds: a quarter turn of anything, or the rest of the step
   HeightBounds<S> a, b;
-  S gap;         // m, of the centres along the normal, less both radii
-  S speed;       // m a step: how fast the gap opens
-  S reach_loss;  // m: what both shapes can take of the gap, however they turn
+  S gap, speed, bend = S(0);  // of the centres along the normal, less both radii
 
-  SeparationBound(const Mover<S>& mover_a, const Mover<S>& mover_b, const Vec<S>& normal, const Vec<S>& centers,
-                  const Vec<S>& motion)
-      : a(mover_a, -normal), b(mover_b, normal) {
-    gap = (dot(normal, centers) - mover_a.shape.radius) - mover_b.shape.radius;
+  SeparationBound(const Mover<S>& mover_a, const Mover<S>& mover_b, const Vec<S>& normal, S normal_turn,
+                  const Vec<S>& centers, const Vec<S>& motion, S rest)
+      : span(rest), a(mover_a, -normal, mover_a.turn - normal_turn), b(mover_b, normal, mover_b.turn - normal_turn) {
+    const S size = absolute(normal_turn);
+    const S fastest = max_of(size, max_of(absolute(mover_a.turn - normal_turn), absolute(mover_b.turn - normal_turn)));
+    if (fastest * rest > kQuarterTurn<S>) span = kQuarterTurn<S> / fastest;
+    const HeightBound<S> line(normal, centers, -normal_turn);
+    gap = (line.height - mover_a.shape.radius) - mover_b.shape.radius;
     speed = dot(normal, motion);
-    std::uint32_t corner;
-    reach_loss = (mover_a.turn != S(0) ? mover_a.reach : -a.lowest(S(0), corner)) +
-                 (mover_b.turn != S(0) ? mover_b.reach : -b.lowest(S(0), corner));
+    if (size > S(0)) {
+      // τ·(u·cos α + v·sin α) with u = speed: u·cos α ≥ u − max(u, 0)·α²/2 and α ≤ size·span; v·sin α ≥ −max(−v, 0)·α.
+      const S v = normal_turn < S(0) ? -cross(normal, motion) : cross(normal, motion);
+      bend = line.bend + size * (S(0.5) * max_of(speed, S(0)) * size * span + max_of(-v, S(0)));
+      speed += line.rate;
+    }
   }
 
   S at(S tau, std::uint32_t& corner_a, std::uint32_t& corner_b) const {
-    return gap + tau * speed + (a.lowest(tau, corner_a) + b.lowest(tau, corner_b));
+    return gap + tau * (speed - tau * bend) + (a.lowest(tau, corner_a) + b.lowest(tau, corner_b));
   }
 
   // Whether a corner no higher than `within` above the lowest of its shape moves towards the other shape.
@@ -114,21 +133,14 @@ struct SeparationBound {
   // How long a pair of corners stays above level; it is above it now.
   S pair_time(std::uint32_t i, std::uint32_t j, S level) const {
     const S c = gap + (a.height[i] + b.height[j]) - level;
-    const S rate = speed + a.rate[i] + b.rate[j], bend = a.bend[i] + b.bend[j];
+    const S rate = speed + a.rate[i] + b.rate[j], curve = bend + a.bend[i] + b.bend[j];
     if (c <= S(0)) return S(0);
-    const S root = std::sqrt(rate * rate + S(4) * bend * c);
-    return rate > S(0) ? (rate + root) / (S(2) * bend) : S(2) * c / (root - rate);
-  }
-
-  // How long discs around both centres stay apart by level: what matters to bodies that spin far from each other.
-  S disc_time(S level, S span) const {
-    const S room = gap - reach_loss - level;
-    if (room <= S(0)) return S(0);
-    return speed >= S(0) || room >= -speed * span ? span : room / -speed;
+    const S root = std::sqrt(rate * rate + S(4) * curve * c);
+    return rate > S(0) ? (rate + root) / (S(2) * curve) : S(2) * c / (root - rate);
   }
 
   // A time up to span for which the separation stays above accept < aim; as long as can be had cheaply.
-  S safe_time(S span, S aim, S accept) const {
+  S safe_time(S aim, S accept) const {
     std::uint32_t i, j;
     S end = span;
     S value = at(end, i, j);
@@ -156,6 +168,24 @@ struct SeparationBound {
   }
 };
 
+// How long discs around both centres stay apart by level: what serves bodies that spin far from each other. A shape
+// that does not turn needs no disc.
+template <class S>
+S disc_time(const Mover<S>& a, const Mover<S>& b, const Vec<S>& normal, const Vec<S>& centers, const Vec<S>& motion,
+            S level, S rest) {
+  const auto reach_along = [](const Mover<S>& mover, const Vec<S>& direction) {
+    if (mover.turn != S(0)) return mover.reach + mover.shape.radius;
+    const Vec<S> up = mover.q.apply_inverse(direction);
+    S reach = dot(up, mover.arms[0]);
+    for (std::uint32_t i = 1; i < mover.shape.count; ++i) reach = max_of(reach, dot(up, mover.arms[i]));
+    return reach + mover.shape.radius;
+  };
+  const S room = dot(normal, centers) - reach_along(a, normal) - reach_along(b, -normal) - level;
+  if (room <= S(0)) return S(0);
+  const S speed = dot(normal, motion);
+  return speed >= S(0) || room >= -speed * rest ? rest : room / -speed;
+}
+
 // b's frame as seen from a's, by the difference of the centres: a world far from its origin costs no digits.
 template <class S>
 Transform<S> frame_of(const Mover<S>& a, const Mover<S>& b, const Vec<S>& centers) {
@@ -173,7 +203,6 @@ Impact<S> time_of_impact(const Convex<S>& shape_a, const Sweep<S>& sweep_a, cons
   Mover<S> a(shape_a, sweep_a), b(shape_b, sweep_b);
   const Vec<S> start = sweep_b.c0 - sweep_a.c0;
   const Vec<S> motion = (sweep_b.c1 - sweep_b.c0) - (sweep_a.c1 - sweep_a.c0);
-  const S fastest_turn = max_of(absolute(a.turn), absolute(b.turn));
   S t = 0;
   for (int advance = 0; advance < kAdvancesMax; ++advance) {
     a.move_to(t);
@@ -181,21 +210,29 @@ Impact<S> time_of_impact(const Convex<S>& shape_a, const Sweep<S>& sweep_a, cons
     const Vec<S> centers = start + t * motion;
     const Distance<S> distance = gjk_distance(shape_a, shape_b, frame_of(a, b, centers));
     const S room = distance.separation - target;
-    if (room < S(0)) return {advance == 0 ? ImpactKind::kOverlapped : ImpactKind::kHit, t};
-    const SeparationBound<S> bound(a, b, a.q.apply(distance.normal), centers, motion);
+    if (room < S(0)) return {advance == 0 ? ImpactKind::kOverlapped : ImpactKind::kHit, t, advance};
+    const Vec<S> normal = a.q.apply(distance.normal);
     // Half of the tolerance keeps rounding from carrying the advance past the target.
     const S margin = S(0.5) * min_of(room, tolerance);
     const S aim = target + margin, accept = target + S(0.5) * margin;
     const S rest = S(1) - t;
-    const S span = fastest_turn * rest > kQuarterTurn<S> ? kQuarterTurn<S> / fastest_turn : rest;
-    const S step = max_of(bound.safe_time(span, aim, accept), bound.disc_time(aim, rest));
-    if (step >= rest) return {ImpactKind::kSeparated, S(1)};
-    if (room <= tolerance && bound.closing(tolerance)) return {ImpactKind::kHit, t};
+    const SeparationBound<S> fixed(a, b, normal, S(0), centers, motion, rest);
+    S step = fixed.safe_time(aim, accept);
+    bool closing = fixed.closing(tolerance);
+    const S edge_turn = distance.edge_a ? a.turn : (distance.edge_b ? b.turn : S(0));
+    if (step < rest && edge_turn != S(0)) {
+      const SeparationBound<S> turning(a, b, normal, edge_turn, centers, motion, rest);
+      step = max_of(step, turning.safe_time(aim, accept));
+      closing = closing && turning.closing(tolerance);
+    }
+    if (step < rest) step = max_of(step, disc_time(a, b, normal, centers, motion, aim, rest));
+    if (step >= rest) return {ImpactKind::kSeparated, S(1), advance};
+    if (room <= tolerance && closing) return {ImpactKind::kHit, t, advance};
     // Too close to tell a time from the next one: this is the target to the last digit.
-    if (t + step == t) return {ImpactKind::kHit, t};
+    if (t + step == t) return {ImpactKind::kHit, t, advance};
     t += step;
   }
-  return {ImpactKind::kFailed, t};
+  return {ImpactKind::kFailed, t, kAdvancesMax};
 }
 
 template Impact<float> time_of_impact<float>(const Convex<float>&, const Sweep<float>&, const Convex<float>&,

@@ -7,9 +7,9 @@ namespace urto {
 // The motion of a body over a step: its centre of mass moves on a line, its angle grows evenly.
 template <class S>
 struct Sweep {
-  Vec<S> local_center = Vec<S>::Zero();          // of mass, body frame
+  Vec<S> local_center = Vec<S>::Zero();             // of mass, body frame
   Vec<S> c0 = Vec<S>::Zero(), c1 = Vec<S>::Zero();  // world position of the centre of mass at t = 0 and t = 1
-  S angle0 = 0, angle1 = 0;                      // rad, not wrapped: angle1 − angle0 is the whole turn
+  S angle0 = 0, angle1 = 0;                         // rad, not wrapped: angle1 − angle0 is the whole turn
 
   // The body's frame (origin, rotation) at t in [0, 1].
   Transform<S> pose(S t) const {
@@ -30,7 +30,8 @@ enum class ImpactKind : unsigned char {
 template <class S>
 struct Impact {
   ImpactKind kind = ImpactKind::kSeparated;
-  S time = 1;  // [0, 1]
+  S time = 1;          // [0, 1]
+  int iterations = 0;  // advances made
 };
 
 // When two moving convex shapes first come within `target` (m > 0) of each other, found by conservative advancement

@@ -71,7 +71,7 @@ void solve_friction(ContactConstraint<S>& k, Motion<S>& a, Motion<S>& b, S drift
   }
 }
 
-// What a point asks of its relative normal velocity: v + bias = −γ λ, where γ is the constraint's compliance.
+// What a point asks of its relative normal velocity: v + bias = −γ (λ − P), where γ is its compliance, P its preload.
 template <class S>
 struct Demand {
   S bias, compliance;
@@ -89,22 +89,44 @@ Demand<S> demand_of(const ContactConstraint<S>& k, const ConstraintPoint<S>& p, 
   return {max_of(k.bias_rate * s, S(-kPushSpeedMax)), k.compliance * p.inverse_mass};
 }
 
-// One point: λ = max(0, (k λ₀ − v − bias) / (k + γ)).
+// Changes the normal impulse of a point to `next`.
+template <class S>
+void push(const ContactConstraint<S>& k, ConstraintPoint<S>& p, Motion<S>& a, Motion<S>& b, const Arms<S>& r, S next) {
+  const S impulse = next - p.normal_impulse;
+  p.normal_impulse = next;
+  apply(a, b, k, r, impulse * k.nx, impulse * k.ny);
+}
+
+// One point: λ = max(0, (k λ₀ − v − bias + γ P) / (k + γ)).
 template <class S>
 void solve_normal(ContactConstraint<S>& k, Motion<S>& a, Motion<S>& b, S driftx, S drifty, const SubStep<S>& step) {
   ConstraintPoint<S>& p = k.points[0];
   const Demand<S> d = demand_of(k, p, a, b, driftx, drifty, step);
   const Arms<S> r(p, k.share_a, driftx, drifty);
   const S vn = relative_velocity(a, b, r, k.nx, k.ny);
-  const S next = max_of((p.inverse_mass * p.normal_impulse - vn - d.bias + d.compliance * p.preload) / (p.inverse_mass + d.compliance), S(0));
-  const S impulse = next - p.normal_impulse;
-  p.normal_impulse = next;
-  apply(a, b, k, r, impulse * k.nx, impulse * k.ny);
+  const S q = p.inverse_mass * p.normal_impulse - vn - d.bias + d.compliance * p.preload;
+  push(k, p, a, b, r, max_of(q / (p.inverse_mass + d.compliance), S(0)));
 }
 
+template <class S>
+struct TwoImpulses {
+  S first, second;
+};
+
 // Both points of a manifold at once, so that neither side is favoured: the linear complementarity problem
-//   w = (K + γ) λ − q ≥ 0,  λ ≥ 0,  w·λ = 0,   q = K λ₀ − v − bias
-// by trying which points push (Catto, "Block solver", Box2D 2; here with compliance).
+//   w = K λ − q ≥ 0,  λ ≥ 0,  w·λ = 0
+// by trying which points push (Catto, "Block solver", Box2D 2).
+template <class S>
+TwoImpulses<S> solve_two(S k11, S k12, S k22, S q1, S q2) {
+  const S determinant = k11 * k22 - k12 * k12;
+  const S d1 = k22 * q1 - k12 * q2, d2 = k11 * q2 - k12 * q1;
+  if (determinant > S(kDeterminantMin) * k11 * k22 && d1 >= S(0) && d2 >= S(0)) return {d1 / determinant, d2 / determinant};
+  if (q1 >= S(0) && k12 * q1 >= k11 * q2) return {q1 / k11, S(0)};
+  if (q2 >= S(0) && k12 * q2 >= k22 * q1) return {S(0), q2 / k22};
+  return {S(0), S(0)};
+}
+
+// λ of both points: (K + γ) λ = K λ₀ − v − bias + γ P where they push.
 template <class S>
 void solve_normals(ContactConstraint<S>& k, Motion<S>& a, Motion<S>& b, S driftx, S drifty, const SubStep<S>& step) {
   ConstraintPoint<S>&p1 = k.points[0], &p2 = k.points[1];
@@ -113,26 +135,10 @@ void solve_normals(ContactConstraint<S>& k, Motion<S>& a, Motion<S>& b, S driftx
   const S v1 = relative_velocity(a, b, r1, k.nx, k.ny), v2 = relative_velocity(a, b, r2, k.nx, k.ny);
   const S q1 = p1.inverse_mass * p1.normal_impulse + k.coupling * p2.normal_impulse - v1 - d1.bias + d1.compliance * p1.preload;
   const S q2 = k.coupling * p1.normal_impulse + p2.inverse_mass * p2.normal_impulse - v2 - d2.bias + d2.compliance * p2.preload;
-  const S k11 = p1.inverse_mass + d1.compliance, k22 = p2.inverse_mass + d2.compliance, k12 = k.coupling;
-  const S determinant = k11 * k22 - k12 * k12;
-  S next1 = k22 * q1 - k12 * q2, next2 = k11 * q2 - k12 * q1;
-  if (determinant > S(kDeterminantMin) * k11 * k22 && next1 >= S(0) && next2 >= S(0)) {
-    next1 /= determinant;
-    next2 /= determinant;
-  } else if (q1 >= S(0) && k12 * q1 >= k11 * q2) {
-    next1 = q1 / k11;
-    next2 = S(0);
-  } else if (q2 >= S(0) && k12 * q2 >= k22 * q1) {
-    next1 = S(0);
-    next2 = q2 / k22;
-  } else {
-    next1 = next2 = S(0);
-  }
-  const S i1 = next1 - p1.normal_impulse, i2 = next2 - p2.normal_impulse;
-  p1.normal_impulse = next1;
-  p2.normal_impulse = next2;
-  apply(a, b, k, r1, i1 * k.nx, i1 * k.ny);
-  apply(a, b, k, r2, i2 * k.nx, i2 * k.ny);
+  const TwoImpulses<S> next =
+      solve_two(p1.inverse_mass + d1.compliance, k.coupling, p2.inverse_mass + d2.compliance, q1, q2);
+  push(k, p1, a, b, r1, next.first);
+  push(k, p2, a, b, r2, next.second);
 }
 
 // One Gauss-Seidel pass over a contact: friction first, so that the last word is that bodies do not penetrate.
@@ -164,25 +170,43 @@ void add_to_totals(ConstraintSet<S>& set, S preload_rate) {
   }
 }
 
-// Newton's restitution for points that were hit in this step, faster than the threshold.
+// Newton's restitution for a contact that was hit in this step: each point that closed in faster than the threshold
+// and pushed leaves at e times that speed; the others must only not close in. Both points at once.
+template <class S>
+void restitute(WorldData<S>& world, ContactConstraint<S>& k, S threshold) {
+  Motion<S>&a = world.motions[k.a], &b = world.motions[k.b];
+  const S driftx = b.dx - a.dx, drifty = b.dy - a.dy;
+  const auto leaving = [&](const ConstraintPoint<S>& p) {
+    return p.approach <= -threshold && p.total_normal_impulse > S(0) ? -k.restitution * p.approach : S(0);
+  };
+  ConstraintPoint<S>&p1 = k.points[0], &p2 = k.points[1];
+  const S u1 = leaving(p1), u2 = k.count == 2 ? leaving(p2) : S(0);
+  if (u1 == S(0) && u2 == S(0)) return;
+  const S before1 = p1.normal_impulse;
+  const Arms<S> r1(p1, k.share_a, driftx, drifty);
+  const S v1 = relative_velocity(a, b, r1, k.nx, k.ny);
+  if (k.count == 1) {
+    push(k, p1, a, b, r1, max_of(p1.normal_impulse + (u1 - v1) / p1.inverse_mass, S(0)));
+  } else {
+    const S before2 = p2.normal_impulse;
+    const Arms<S> r2(p2, k.share_a, driftx, drifty);
+    const S v2 = relative_velocity(a, b, r2, k.nx, k.ny);
+    const TwoImpulses<S> next = solve_two(
+        p1.inverse_mass, k.coupling, p2.inverse_mass,
+        p1.inverse_mass * p1.normal_impulse + k.coupling * p2.normal_impulse + u1 - v1,
+        k.coupling * p1.normal_impulse + p2.inverse_mass * p2.normal_impulse + u2 - v2);
+    push(k, p1, a, b, r1, next.first);
+    push(k, p2, a, b, r2, next.second);
+    p2.total_normal_impulse += p2.normal_impulse - before2;
+  }
+  p1.total_normal_impulse += p1.normal_impulse - before1;
+}
+
 template <class S>
 void apply_restitution(WorldData<S>& world, ConstraintSet<S>& set) {
   const S threshold = S(world.settings.restitution_threshold);
-  for (ContactConstraint<S>& k : set.contacts) {
-    if (k.restitution == S(0)) continue;
-    Motion<S>&a = world.motions[k.a], &b = world.motions[k.b];
-    for (int i = 0; i < k.count; ++i) {
-      ConstraintPoint<S>& p = k.points[i];
-      if (p.approach > -threshold || p.total_normal_impulse == S(0)) continue;
-      const Arms<S> r(p, k.share_a, b.dx - a.dx, b.dy - a.dy);
-      const S vn = relative_velocity(a, b, r, k.nx, k.ny);
-      const S next = max_of(p.normal_impulse - (vn + k.restitution * p.approach) / p.inverse_mass, S(0));
-      const S impulse = next - p.normal_impulse;
-      p.normal_impulse = next;
-      p.total_normal_impulse += impulse;
-      apply(a, b, k, r, impulse * k.nx, impulse * k.ny);
-    }
-  }
+  for (ContactConstraint<S>& k : set.contacts)
+    if (k.restitution > S(0)) restitute(world, k, threshold);
 }
 
 template <class S>
