@@ -330,3 +330,25 @@ def _listen() -> tuple[zenoh.Session, str]:
         except zenoh.ZError:
             continue
     raise RuntimeError("no free port")
+
+
+class Running:
+    """Advances and publishes a fake room in a thread while its `with` block lasts, one tick every millisecond."""
+
+    def __init__(self, fake: FakeRoom) -> None:
+        self._fake = fake
+        self._end = threading.Event()
+        self._thread = threading.Thread(target=self._run)
+
+    def __enter__(self) -> Running:
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._end.set()
+        self._thread.join()
+
+    def _run(self) -> None:
+        while not self._end.wait(0.001):
+            self._fake.advance()
+            self._fake.publish()

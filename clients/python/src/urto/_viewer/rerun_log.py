@@ -1,0 +1,266 @@
+"""Turns frames into Rerun archetypes.
+
+A room is flat, and Rerun's plain 2D boxes cannot rotate; so the shapes are logged as thin 3D ones, one entity for all
+of a kind, and looked at through a pinhole camera far away: focal length 1000 at 1000 m, so that one pixel is one metre.
+Overlays are 2D, in pixels of that camera: x − left, top − y.
+
+    room/camera            the pinhole; below it the overlays velocities, contacts, normals
+    room/<layer>/boxes     layer: static, bodies, sensors
+    room/<layer>/discs
+    room/<layer>/spokes    a radius of every disc, which shows how it is turned
+    room/<layer>/polygons
+    plots/…                what the tick cost and held
+    events                 a text log
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+import rerun as rr
+import rerun.blueprint as rrb
+
+from urto._describe import describe
+from urto._events import ContactBegin, ContactEnd, Event, EventsDropped
+from urto._frame import Contacts, Frame
+from urto._info import RoomInfo
+from urto._viewer.palette import BACKGROUND, CONTACT, VELOCITY, darker
+from urto._viewer.shapes import LAYERS, Layer, ShapeSet
+
+CAMERA = "room/camera"
+CAMERA_DISTANCE = 1000.0
+"""m; so far that the depth of the shapes does not show."""
+
+DEPTH = 0.01
+"""m, thickness of a shape towards the camera."""
+
+SPOKE_DEPTH = 0.03
+"""m, how far before its disc a spoke is."""
+
+SPOKE_WIDTH = 0.05
+"""Of the radius."""
+
+VELOCITY_SECONDS = 0.25
+"""Arrows of velocity reach where the body would be after that long."""
+
+NORMAL_LENGTH = 0.02
+"""Of the view's width."""
+
+CONTACT_EVENTS_MAX = 20
+"""Lines in the event log per frame that are about contacts; the rest is counted in one line."""
+
+_FILL = {
+    "static": rr.components.FillMode.Solid,
+    "bodies": rr.components.FillMode.TransparentFillMajorWireframe,
+    "sensors": rr.components.FillMode.MajorWireframe,
+}
+_PLOTS: dict[str, tuple[tuple[str, str, tuple[int, int, int]], ...]] = {
+    "energy": (
+        ("kinetic", "kinetic, J", (246, 144, 61)),
+        ("potential", "potential, J", (91, 143, 249)),
+        ("total", "total, J", (235, 240, 250)),
+    ),
+    "contacts": (("count", "touching pairs", (97, 221, 170)), ("awake", "awake bodies", (246, 189, 22))),
+    "step": (("ms", "step, ms", (120, 211, 248)),),
+    "penetration": (("mm", "deepest, mm", (240, 110, 130)),),
+    "members": (("count", "members", (142, 128, 250)),),
+}
+
+Bounds = tuple[float, float, float, float]
+
+
+class RerunLog:
+    """Logs one room to a recording stream."""
+
+    def __init__(self, stream: rr.RecordingStream, bounds: Bounds, velocities: bool, contacts: bool) -> None:
+        self._stream = stream
+        self._left, self._lower, self._right, self._upper = bounds
+        self._velocities = velocities
+        self._contacts = contacts
+        self._log_camera()
+        for plot, lines in _PLOTS.items():
+            for name, label, color in lines:
+                stream.log(f"plots/{plot}/{name}", rr.SeriesLines(names=label, colors=color, widths=1.5), static=True)
+
+    def _log_camera(self) -> None:
+        width, height = self._right - self._left, self._upper - self._lower
+        self._stream.log(
+            CAMERA,
+            rr.Pinhole(
+                focal_length=CAMERA_DISTANCE, width=width, height=height, camera_xyz=rr.ViewCoordinates.RUB,
+                image_plane_distance=CAMERA_DISTANCE,
+            ),
+            rr.Transform3D(translation=[self._left + width / 2, self._lower + height / 2, CAMERA_DISTANCE]),
+            static=True,
+        )  # fmt: skip
+
+    def blueprint(self, info: RoomInfo) -> rrb.Blueprint:
+        """The room at the left, plots and events at the right."""
+        plots = [
+            rrb.TimeSeriesView(origin=f"plots/{plot}", name=plot, plot_legend=rrb.PlotLegend(visible=len(lines) > 1))
+            for plot, lines in _PLOTS.items()
+        ]
+        room = rrb.Spatial2DView(
+            origin=CAMERA,
+            contents=["/room/**"],
+            name=f"{info.room} · {info.scene}" if info.scene else info.room,
+            visual_bounds=rrb.VisualBounds2D(
+                x_range=[0, self._right - self._left], y_range=[0, self._upper - self._lower]
+            ),
+            background=list(BACKGROUND),
+        )
+        events = rrb.TextLogView(origin="events", name="events")
+        return rrb.Blueprint(
+            rrb.Horizontal(
+                room,
+                rrb.Vertical(rrb.Tabs(*plots[1:], active_tab=0), plots[0], events, row_shares=[1, 1, 1]),
+                column_shares=[3, 1],
+            ),
+            rrb.TimePanel(state="collapsed", timeline="sim_time"),
+            rrb.BlueprintPanel(state="hidden"),
+            rrb.SelectionPanel(state="hidden"),
+        )
+
+    def set_time(self, frame: Frame) -> None:
+        """What is logged next belongs to this frame's moment."""
+        self._stream.set_time("tick", sequence=frame.tick)
+        self._stream.set_time("sim_time", duration=frame.sim_time)
+
+    def log_layout(self, shapes: ShapeSet) -> None:
+        """Sizes, colours and ids: when the set of bodies has changed, so that scrubbing back shows the right set."""
+        ids = shapes.poses.ids
+        for name in LAYERS:
+            layer = shapes.layers[name]
+            self._log_layer_layout(f"room/{name}", layer, ids, _FILL[name])
+        self._log_poses(shapes, LAYERS)
+
+    def log_poses(self, shapes: ShapeSet) -> None:
+        """Where the moving shapes are."""
+        self._log_poses(shapes, ("bodies", "sensors"))
+        if self._velocities:
+            moving = np.hypot(shapes.poses.velocity[:, 0], shapes.poses.velocity[:, 1]) > 1e-3
+            velocity = shapes.poses.velocity[moving] * VELOCITY_SECONDS * [1.0, -1.0]
+            self._stream.log(
+                f"{CAMERA}/velocities",
+                rr.Arrows2D(
+                    origins=self._to_pixels(shapes.poses.position[moving]), vectors=velocity, colors=[VELOCITY]
+                ),
+            )
+
+    def log_contacts(self, contacts: Contacts) -> None:
+        points = self._to_pixels(contacts.point)
+        length = NORMAL_LENGTH * (self._right - self._left)
+        self._stream.log(
+            f"{CAMERA}/contacts", rr.Points2D(points, colors=[CONTACT], radii=rr.Radius.ui_points(3.0), draw_order=50)
+        )
+        self._stream.log(
+            f"{CAMERA}/normals",
+            rr.Arrows2D(
+                origins=points, vectors=np.asarray(contacts.normal) * [length, -length], colors=[CONTACT],
+                radii=rr.Radius.ui_points(1.0),
+            ),
+        )  # fmt: skip
+
+    def log_plots(self, frame: Frame) -> None:
+        held = frame.statistics
+        total = held.kinetic_energy + held.potential_energy
+        for path, value in (
+            ("energy/kinetic", held.kinetic_energy),
+            ("energy/potential", held.potential_energy),
+            ("energy/total", total),
+            ("contacts/count", float(held.contact_count)),
+            ("contacts/awake", float(held.awake_count)),
+            ("step/ms", held.step_ms),
+            ("penetration/mm", held.penetration_max * 1000),
+            ("members/count", float(held.member_count)),
+        ):
+            self._stream.log(f"plots/{path}", rr.Scalars(value))
+
+    def log_events(self, events: list[Event]) -> None:
+        lines = 0
+        left_out = 0
+        for event in events:
+            if isinstance(event, ContactBegin | ContactEnd):
+                if not self._contacts:
+                    continue
+                if lines == CONTACT_EVENTS_MAX:
+                    left_out += 1
+                    continue
+                lines += 1
+                self.log_text(describe(event), rr.TextLogLevel.DEBUG)
+            else:
+                level = rr.TextLogLevel.WARN if isinstance(event, EventsDropped) else rr.TextLogLevel.INFO
+                self.log_text(describe(event), level)
+        if left_out:
+            self.log_text(f"and {left_out} more contacts", rr.TextLogLevel.DEBUG)
+
+    def log_text(self, text: str, level: rr.components.TextLogLevel | str = "INFO") -> None:
+        self._stream.log("events", rr.TextLog(text, level=level))
+
+    def _log_layer_layout(
+        self, path: str, layer: Layer, ids: npt.NDArray[np.uint64], fill: rr.components.FillMode
+    ) -> None:
+        log = self._stream.log
+        boxes, discs, polygons = layer.boxes, layer.discs, layer.polygons
+        half = np.column_stack([boxes.half_size, np.full(len(boxes.rows), DEPTH / 2)])
+        log(
+            f"{path}/boxes",
+            rr.Boxes3D.from_fields(half_sizes=half, colors=boxes.color, fill_mode=fill),
+            rr.AnyValues(body_id=ids[boxes.rows]),
+        )
+        # A flat ellipsoid is rounder than Rerun's cylinder.
+        flat = np.column_stack([discs.radius, discs.radius, np.full(len(discs.rows), DEPTH / 2)])
+        solid = rr.components.FillMode.Solid
+        disc_fill = fill if fill == rr.components.FillMode.MajorWireframe else solid
+        log(
+            f"{path}/discs",
+            rr.Ellipsoids3D.from_fields(half_sizes=flat, colors=discs.color, fill_mode=disc_fill),
+            rr.AnyValues(body_id=ids[discs.rows]),
+        )
+        spoke = np.column_stack([discs.radius * 0.46, discs.radius * SPOKE_WIDTH / 2, np.full(len(discs.rows), DEPTH)])
+        spoke_color = [darker((r, g, b), 0.35) for r, g, b in discs.color.tolist()]
+        log(f"{path}/spokes", rr.Boxes3D.from_fields(half_sizes=spoke, colors=spoke_color, fill_mode=solid))
+        log(
+            f"{path}/polygons",
+            rr.Mesh3D.from_fields(triangle_indices=polygons.triangle, vertex_colors=polygons.color),
+            rr.AnyValues(body_id=ids[polygons.rows]),
+        )
+
+    def _log_poses(self, shapes: ShapeSet, layers: tuple[str, ...]) -> None:
+        poses = shapes.poses
+        log = self._stream.log
+        for name in layers:
+            layer = shapes.layers[name]
+            boxes, discs, polygons = layer.boxes, layer.discs, layer.polygons
+            if len(boxes.rows):
+                centers = _lift(poses.to_world(boxes.rows, boxes.center), 0.0)
+                turned = _quaternions(poses.angle[boxes.rows] + boxes.angle)
+                log(f"room/{name}/boxes", rr.Boxes3D.from_fields(centers=centers, quaternions=turned))
+            if len(discs.rows):
+                middle = poses.to_world(discs.rows, discs.center)
+                angle = poses.angle[discs.rows]
+                log(f"room/{name}/discs", rr.Ellipsoids3D.from_fields(centers=_lift(middle, 0.0)))
+                along = np.stack([np.cos(angle), np.sin(angle)], 1) * (discs.radius * 0.46)[:, None]
+                log(
+                    f"room/{name}/spokes",
+                    rr.Boxes3D.from_fields(
+                        centers=_lift(middle + along, SPOKE_DEPTH), quaternions=_quaternions(angle)
+                    ),
+                )
+            if len(polygons.rows):
+                vertices = _lift(poses.to_world(polygons.rows, polygons.vertex), 0.0)
+                log(f"room/{name}/polygons", rr.Mesh3D.from_fields(vertex_positions=vertices))
+
+    def _to_pixels(self, points: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        points = np.asarray(points, dtype=np.float64).reshape(-1, 2)
+        return np.column_stack([points[:, 0] - self._left, self._upper - points[:, 1]])
+
+
+def _lift(points: npt.NDArray[np.float64], z: float) -> npt.NDArray[np.float32]:
+    return np.column_stack([points, np.full(len(points), z)]).astype(np.float32)
+
+
+def _quaternions(angle: npt.NDArray[np.float64]) -> npt.NDArray[np.float32]:
+    """(n, 4) as x, y, z, w: turns about the z axis."""
+    zero = np.zeros_like(angle)
+    return np.stack([zero, zero, np.sin(angle / 2), np.cos(angle / 2)], 1).astype(np.float32)

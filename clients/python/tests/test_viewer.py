@@ -1,0 +1,160 @@
+"""The viewer: what it logs, read back with Rerun's own reader, and the picture it draws."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+rr = pytest.importorskip("rerun")
+Image = pytest.importorskip("PIL.Image")
+
+import urto
+from support.fake_room import GRAVITY_Y, TIME_STEP, FakeRoom, Running
+from urto._viewer import outputs
+from urto._viewer.palette import BACKGROUND, STATIC
+from urto._viewer.shapes import ShapeSet
+from urto._viewer.triangulate import signed_area, triangulate
+from urto._viewer.view import ViewOptions, _Outputs, _View, view
+
+
+def _furnish(room: urto.Room) -> None:
+    room.spawn(
+        [
+            urto.Box(width=20, height=1, position=(0, -0.5), type="static"),
+            urto.Box(width=1, height=2, position=(-3, 6), angle=0.3, color=0xFF0000),
+            urto.Circle(radius=0.5, position=(0, 6), velocity=(1, 2), angular_velocity=1),
+            urto.Polygon(vertices=[(0, 0), (2, 0), (2, 1), (1, 0.2)], position=(3, 6)),
+            urto.Circle(radius=1, position=(5, 1), type="static", sensor=True),
+        ]
+    )
+
+
+def _chunks(recording: Path) -> list[tuple[str, Any]]:
+    """Entity and record batch of every chunk, read by Rerun's own reader."""
+    from rerun.chunk import RrdReader
+
+    stream = RrdReader(recording).store().stream()
+    return [(str(chunk.entity_path), chunk.to_record_batch()) for chunk in stream.to_chunks()]
+
+
+def _values(recording: Path, entity: str, column: str) -> list[tuple[int, Any]]:
+    """(tick, value) of a column that changes in time."""
+    found = []
+    for path, batch in _chunks(recording):
+        if path == entity and column in batch.schema.names and "tick" in batch.schema.names:
+            ticks, values = batch.column("tick").to_pylist(), batch.column(column).to_pylist()
+            found += [(tick, value) for tick, value in zip(ticks, values, strict=True) if value is not None]
+    return sorted(found, key=lambda row: row[0])
+
+
+def test_a_saved_view_holds_what_the_room_did(room: urto.Room, fake: FakeRoom, tmp_path: Path) -> None:
+    _furnish(room)
+    said: list[str] = []
+    with Running(fake):
+        options = ViewOptions(save=tmp_path / "out", ticks=200, rate_hz=1000, velocities=True, contacts=True)
+        view(room, options, said.append)
+    recording = tmp_path / "out" / "room.rrd"
+    subprocess.run([outputs.rerun_program(), "rrd", "verify", str(recording)], check=True, capture_output=True)
+    sizes = _values(recording, "/room/bodies/boxes", "Boxes3D:half_sizes")
+    assert np.allclose(sizes[0][1][0][:2], [0.5, 1.0])
+    assert _values(recording, "/room/bodies/boxes", "body_id")[0][1] == [2]
+    # Free fall by semi-implicit Euler from y = 6: y = 6 + g dt² n (n + 1) / 2 after n ticks.
+    last, centers = _values(recording, "/room/bodies/boxes", "Boxes3D:centers")[-1]
+    assert last >= 200
+    assert centers[0][1] == pytest.approx(6 + GRAVITY_Y * TIME_STEP**2 * last * (last + 1) / 2, rel=1e-5)
+    entities = {entity for entity, _ in _chunks(recording)}
+    for entity in (
+        "/room/static/boxes", "/room/bodies/discs", "/room/bodies/spokes", "/room/bodies/polygons",
+        "/room/sensors/discs", "/room/camera", "/room/camera/velocities", "/room/camera/contacts",
+        "/room/camera/normals",
+    ):  # fmt: skip
+        assert entity in entities, entity
+    assert len(_values(recording, "/plots/members/count", "Scalars:scalars")) > 1
+    assert any("sim_time" in batch.schema.names for entity, batch in _chunks(recording) if entity.startswith("/plots"))
+    assert any("MemberJoined" in text[0] for _, text in _values(recording, "/events", "TextLog:text"))
+    assert said == [said[0]]
+    assert "room.png" in said[0]
+
+
+def test_a_reset_begins_a_recording_of_its_own(room: urto.Room, tmp_path: Path) -> None:
+    _furnish(room)
+    options = ViewOptions(save=tmp_path)
+    shown = _View(room, options, _Outputs(options, print))
+    shown.show(room.step(5))
+    room.reset()
+    room.spawn(urto.Box(width=3, height=3))
+    shown.show(room.step(2))
+    shown.end_recording()
+    first = _values(tmp_path / "room.rrd", "/room/bodies/boxes", "Boxes3D:centers")
+    second = _values(tmp_path / "room-2.rrd", "/room/bodies/boxes", "Boxes3D:half_sizes")
+    assert [tick for tick, _ in first if tick > 0] == [5]
+    assert second[0][0] == 2
+    assert np.allclose(second[0][1][0][:2], [1.5, 1.5])
+
+
+def test_the_picture_shows_bodies_where_they_are(room: urto.Room, fake: FakeRoom, tmp_path: Path) -> None:
+    room.spawn(
+        [
+            urto.Box(width=16, height=2, position=(0, -1), type="static"),
+            urto.Box(width=2, height=2, position=(-4, 1), color=0x00FF00),
+            urto.Circle(radius=1, position=(4, 1), color=0x0000FF),
+        ]
+    )
+    from urto._viewer.drawing import draw_picture
+
+    shapes = ShapeSet(room.bodies())
+    draw_picture(shapes, tmp_path / "room.png", bounds=(-8, -4, 8, 5))
+    picture = Image.open(tmp_path / "room.png")
+    width, height = picture.size
+    assert (width, height) == (1600, 900)
+
+    def color_at(x: float, y: float) -> tuple[int, int, int]:
+        return picture.getpixel((round((x + 8) * 100), round((5 - y) * 100)))
+
+    assert color_at(-4, 1.3) == (0, 255, 0)
+    assert color_at(4, 1.5) == (0, 0, 255)
+    assert color_at(4.9, 1.9) != (0, 0, 255)
+    assert color_at(0.3, -0.7) == STATIC
+    assert color_at(0.3, 3.3) == BACKGROUND
+
+
+def test_a_paused_room_is_shown_too(room: urto.Room, tmp_path: Path) -> None:
+    _furnish(room)
+    view(room, ViewOptions(save=tmp_path, seconds=0.01), print)
+    assert _values(tmp_path / "room.rrd", "/room/bodies/boxes", "Boxes3D:centers")
+    assert (tmp_path / "room.png").stat().st_size > 0
+
+
+def test_without_a_display_the_error_says_what_to_do(room: urto.Room, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.platform", "linux")
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    with pytest.raises(outputs.ViewerError, match="--save DIR, --web, or --connect URL"):
+        view(room, ViewOptions(), print)
+
+
+def test_no_viewer_at_the_url_is_told_at_once(room: urto.Room) -> None:
+    with pytest.raises(outputs.ViewerError, match="no Rerun viewer listens at"):
+        view(room, ViewOptions(connect="rerun+http://127.0.0.1:1/proxy"), print)
+
+
+@pytest.mark.parametrize(
+    "vertices",
+    [
+        [(0, 0), (1, 0), (0, 1)],
+        [(0, 1), (1, 0), (0, 0)],
+        [(0, 0), (4, 0), (4, 4), (2, 1), (0, 4)],
+        [(0, 0), (1, 0), (2, 0), (2, 1), (0, 1)],
+        [(0, 0), (3, 0), (3, 3), (2, 3), (2, 1), (1, 1), (1, 3), (0, 3)],
+    ],
+)
+def test_triangles_cover_the_polygon(vertices: list[tuple[float, float]]) -> None:
+    triangles = triangulate(vertices)
+    areas = [signed_area([vertices[a], vertices[b], vertices[c]]) for a, b, c in triangles]
+    assert len(triangles) == len(vertices) - 2
+    assert min(areas) >= 0
+    assert sum(areas) == pytest.approx(abs(signed_area(vertices)))
