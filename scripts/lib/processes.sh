@@ -1,7 +1,7 @@
 # Sourced by the scripts beside this folder: starts processes in groups of their own and ends them, and nothing else.
 # shellcheck shell=bash
 
-readonly END_GRACE_SECONDS=5  # from a polite signal to a hard one
+readonly END_GRACE_SECONDS=15  # from a polite signal to a hard one: a recording may still have to be written
 readonly START_SECONDS_MAX=60  # until a server listens
 started_pids=()
 # Every process that comes of `start` carries this in its environment, wherever it moves.
@@ -56,7 +56,7 @@ end_all() {
   trap '' INT TERM HUP
   for ((index = ${#started_pids[@]} - 1; index >= 0; index--)); do
     pid=${started_pids[index]}
-    kill -TERM -- "-$pid" 2>/dev/null || continue
+    kill -INT -- "-$pid" 2>/dev/null || continue  # as Ctrl-C would: recordings are finished, viewers closed
     deadline=$((SECONDS + END_GRACE_SECONDS))
     while kill -0 -- "-$pid" 2>/dev/null && [ "$SECONDS" -lt "$deadline" ]; do sleep 0.05; done
     kill -KILL -- "-$pid" 2>/dev/null || true

@@ -67,7 +67,7 @@ def test_the_end_of_one_ends_the_other_and_gives_its_status():
 
 
 def test_what_ignores_the_polite_signal_is_killed():
-    stubborn = """start bash -c 'trap "" TERM; echo ready; exec sleep 1000'"""
+    stubborn = """start bash -c 'trap "" INT; echo ready; exec sleep 1000'"""
     script = Script(f"end_all_at_exit\n{stubborn}\nfirst_of $started")
     assert script.read_line() == "ready"
     script.process.send_signal(signal.SIGTERM)
