@@ -5,6 +5,7 @@
 #include <google/protobuf/text_format.h>
 
 #include <charconv>
+#include <sstream>
 #include <utility>
 
 #include "codec/check_message.h"
@@ -71,13 +72,17 @@ SceneText& SceneText::operator=(SceneText&&) noexcept = default;
 SceneText::~SceneText() = default;
 
 std::string SceneProblem::text() const {
-  std::string text = file;
-  if (line > 0) text += ":" + std::to_string(line) + ":" + std::to_string(column);
-  text += ": ";
-  if (!field.empty()) text += field;
-  if (!field.empty() && !value.empty()) text += " = " + value;
-  if (!field.empty()) text += ": ";
-  return text + message;
+  std::ostringstream text;
+  text << file;
+  if (line > 0) text << ':' << line << ':' << column;
+  text << ": ";
+  if (!field.empty()) {
+    text << field;
+    if (!value.empty()) text << " = " << value;
+    text << ": ";
+  }
+  text << message;
+  return text.str();
 }
 
 tl::expected<SceneText, std::vector<SceneProblem>> SceneText::parse(std::string_view text, const std::string& file) {

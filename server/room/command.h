@@ -27,32 +27,32 @@ struct Despawn {
 
 struct Impulse {
   BodyRef body;
-  Vec2 impulse{0, 0};          // N·s
-  std::optional<Vec2> point;   // m; absent: the centre of mass
-  bool in_body_frame = false;  // of impulse and point
-  double angular = 0;          // N·m·s, added about the centre of mass
+  Vec2 impulse{0, 0};                        // N·s
+  std::optional<Vec2> point = std::nullopt;  // m; absent: the centre of mass
+  bool in_body_frame = false;                // of impulse and point
+  double angular = 0;                        // N·m·s, added about the centre of mass
 };
 
 struct Force {
   BodyRef body;
-  Vec2 force{0, 0};                // N at the centre of mass
-  double torque = 0;               // N·m
-  bool in_body_frame = false;      // turns with the body
-  std::optional<double> duration;  // s of simulated time > 0; absent: until changed
+  Vec2 force{0, 0};                               // N at the centre of mass
+  double torque = 0;                              // N·m
+  bool in_body_frame = false;                     // turns with the body
+  std::optional<double> duration = std::nullopt;  // s of simulated time > 0; absent: until changed
 };
 
 // Absent parts stay as they are.
 struct SetVelocity {
   BodyRef body;
-  std::optional<Vec2> velocity;            // m/s, world frame, of the centre of mass
-  std::optional<double> angular_velocity;  // rad/s
+  std::optional<Vec2> velocity = std::nullopt;            // m/s, world frame, of the centre of mass
+  std::optional<double> angular_velocity = std::nullopt;  // rad/s
 };
 
 // Absent parts stay as they are.
 struct SetTransform {
   BodyRef body;
-  std::optional<Vec2> position;  // m, world frame
-  std::optional<double> angle;   // rad
+  std::optional<Vec2> position = std::nullopt;  // m, world frame
+  std::optional<double> angle = std::nullopt;   // rad
 };
 
 struct Pause {};
