@@ -1,0 +1,120 @@
+// Runs a scene in Urto through its public API.
+#include <cstdio>
+#include <cstdlib>
+
+#include "physics/world.h"
+#include "report.h"
+#include "scene_file.h"
+
+namespace bench {
+namespace {
+
+// What Urto's shapes and constraints cannot do: such scenes are refused with exit status 3, never approximated.
+constexpr int kExitNotYet = 3;
+
+urto::Vec2 vec(const Point& point) { return {point[0], point[1]}; }
+
+template <class T>
+T expect(urto::Expected<T> result) {
+  if (result) return std::move(*result);
+  std::fprintf(stderr, "%s (%s = %s)\n", result.error().message.c_str(), result.error().field.c_str(),
+               result.error().value.c_str());
+  std::exit(1);
+}
+
+[[noreturn]] void refuse(const std::string& features) {
+  std::fprintf(stderr, "urto has no %s yet\n", features.c_str());
+  std::exit(kExitNotYet);
+}
+
+urto::ShapeDef shape_def(const Shape& shape, bool apart) {
+  urto::ShapeDef def;
+  if (const auto* box = std::get_if<Box>(&shape.geometry)) {
+    urto::Box made;
+    made.width = 2 * box->half[0];
+    made.height = 2 * box->half[1];
+    made.center = vec(box->center);
+    def.geometry = made;
+  } else if (const auto* circle = std::get_if<Circle>(&shape.geometry)) {
+    def.geometry = urto::Circle{circle->radius, vec(circle->center)};
+  } else if (const auto* polygon = std::get_if<Polygon>(&shape.geometry)) {
+    urto::Polygon made;
+    for (const Point& point : polygon->points) made.vertices.push_back(vec(point));
+    def.geometry = made;
+  } else {
+    refuse("such shapes");
+  }
+  def.material.density = shape.material.density;
+  def.material.friction = shape.material.friction;
+  def.material.restitution = shape.material.restitution;
+  if (apart) def.filter = {2, ~2u};
+  return def;
+}
+
+urto::BodyId add_body(urto::World& world, const Body& body) {
+  urto::BodyDef def;
+  def.type = body.kind == BodyKind::kDynamic     ? urto::BodyType::kDynamic
+             : body.kind == BodyKind::kKinematic ? urto::BodyType::kKinematic
+                                                 : urto::BodyType::kStatic;
+  def.position = vec(body.position);
+  def.angle = body.angle;
+  def.velocity = vec(body.velocity);
+  def.angular_velocity = body.spin;
+  def.awake = body.awake;
+  for (const Shape& shape : body.shapes) def.shapes.push_back(shape_def(shape, body.apart));
+  return expect(world.add_body(def));
+}
+
+std::uint64_t nanoseconds() {
+  return static_cast<std::uint64_t>(
+      std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
+          .count());
+}
+
+void run(const Arguments& arguments) {
+  const Scene scene = read_scene(arguments.scene_path);
+  if (!scene.needs.empty()) {
+    std::string features;
+    for (const std::string& feature : scene.needs) features += (features.empty() ? "" : ", ") + feature;
+    refuse(features);
+  }
+  const int steps = arguments.steps > 0 ? arguments.steps : scene.steps;
+  urto::WorldSettings settings;
+  settings.gravity = vec(scene.gravity);
+  settings.time_step = kTimeStep;
+  settings.sub_steps = kSubSteps;
+  settings.sleeping = scene.sleep;
+  const auto world = expect(urto::World::create(settings, nanoseconds));
+  std::vector<urto::BodyId> bodies;
+  for (const Body& body : scene.bodies) bodies.push_back(add_body(*world, body));
+
+  constexpr auto kPhases = static_cast<std::size_t>(urto::Phase::kCount);
+  double phase_sums[kPhases] = {};
+  Report report;
+  for (int step = 0; step < steps; ++step) {
+    for (const Sway& sway : scene.sways) {
+      const auto set = world->set_velocity(bodies[static_cast<std::size_t>(sway.body)],
+                                           {sway.velocity_before(step, kTimeStep), 0}, 0);
+      if (!set) std::exit(1);
+    }
+    time_step(report, [&] { world->step(); });
+    const urto::Profile profile = world->profile();
+    for (std::size_t phase = 0; phase < kPhases; ++phase) phase_sums[phase] += profile.ms[phase];
+  }
+  report.engine = "urto";
+  report.version = BENCH_URTO_VERSION;
+  report.scene = scene.name;
+  for (const Body& body : scene.bodies) report.bodies += body.kind == BodyKind::kDynamic ? 1 : 0;
+  report.pairs = world->counters().pairs;
+  report.touching = world->counters().contacts;
+  report.hash = hexadecimal(world->state_hash());
+  for (std::size_t phase = 0; phase < kPhases; ++phase) {
+    report.phases_ms.emplace_back(urto::phase_name(static_cast<urto::Phase>(phase)), phase_sums[phase] / steps);
+  }
+  report.print();
+}
+
+}  // namespace
+}  // namespace bench
+
+int main(int count, char** values) { bench::run(bench::parse_arguments(count, values)); }
