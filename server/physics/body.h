@@ -29,22 +29,22 @@ struct Motion {
 // Everything else of a body. Records have no padding: the state is hashed as it lies in memory.
 template <class S>
 struct Body {
-  S x = 0, y = 0;                      // centre of mass, world frame
-  S angle = 0;                         // (−π, π]
-  S c = 1, s = 0;                      // rotation by angle
-  S local_x = 0, local_y = 0;          // centre of mass, body frame
-  S inv_mass = 0, inv_inertia = 0;     // 0 unless dynamic
+  S x = 0, y = 0;                   // centre of mass, world frame
+  S angle = 0;                      // (−π, π]
+  S c = 1, s = 0;                   // rotation by angle
+  S local_x = 0, local_y = 0;       // centre of mass, body frame
+  S inv_mass = 0, inv_inertia = 0;  // 0 unless dynamic
   S mass = 0, inertia = 0;
   S linear_damping = 0, angular_damping = 0, gravity_scale = 1;
   S force_x = 0, force_y = 0, torque = 0;
-  S extent_min = 0;                    // least distance from the centre of mass to a boundary
-  S extent_max = 0;                    // greatest
-  S sleep_time = 0;                    // s below the speed of sleep
+  S extent_min = 0;  // least distance from the centre of mass to a boundary
+  S extent_max = 0;  // greatest
+  S sleep_time = 0;  // s below the speed of sleep
   std::uint32_t generation = 0;
-  std::uint32_t type = 0;              // BodyType
+  std::uint32_t type = 0;  // BodyType
   std::uint32_t flags = 0;
   std::uint32_t first_shape = kNone, shape_count = 0;
-  std::uint32_t first_contact = kNone; // edge: contact · 2 + side
+  std::uint32_t first_contact = kNone;  // edge: contact · 2 + side
   std::uint32_t awake_index = kNone;
   std::uint32_t unused = 0;
 

@@ -144,7 +144,8 @@ void create_shape(WorldData<S>& world, std::uint32_t body_slot, const Part& part
   // What never moves needs no room to move in.
   shape.margin = body.body_type() == BodyType::kStatic
                      ? S(0)
-                     : clamp_to(S(kFatMarginFraction) * outer_radius<S>(convex, convex.centroid), S(kFatMarginMin), S(kFatMarginMax));
+                     : clamp_to(S(kFatMarginFraction) * outer_radius<S>(convex, convex.centroid), S(kFatMarginMin),
+                                S(kFatMarginMax));
   body.first_shape = proxy;
   ++body.shape_count;
   if (!part.def->sensor || body.extent_min == S(0))
@@ -218,7 +219,8 @@ void update_model(WorldData<S>& world) {
   world.broad_phase = BroadPhase<S>::create(world.model.broad_phase);
   for (Proxy p = 0; p < world.shapes.size(); ++p) {
     const Shape<S>& shape = world.shapes[p];
-    if (shape.alive()) world.broad_phase->insert(p, shape.fat, world.bodies[shape.body].body_type() == BodyType::kStatic);
+    if (shape.alive())
+      world.broad_phase->insert(p, shape.fat, world.bodies[shape.body].body_type() == BodyType::kStatic);
   }
 }
 
@@ -284,10 +286,10 @@ void destroy_body(WorldData<S>& world, std::uint32_t slot) {
   update_model(world);
 }
 
-#define URTO_INSTANTIATE(S)                                                \
-  template std::uint32_t create_body(WorldData<S>&, const BodyDef&);       \
-  template void destroy_body(WorldData<S>&, std::uint32_t);                \
-  template void count_needs(WorldData<S>&, std::uint32_t, int);            \
+#define URTO_INSTANTIATE(S)                                          \
+  template std::uint32_t create_body(WorldData<S>&, const BodyDef&); \
+  template void destroy_body(WorldData<S>&, std::uint32_t);          \
+  template void count_needs(WorldData<S>&, std::uint32_t, int);      \
   template void update_model(WorldData<S>&);
 URTO_INSTANTIATE(float)
 URTO_INSTANTIATE(double)

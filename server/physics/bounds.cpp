@@ -85,11 +85,11 @@ void update_broad_phase(WorldData<S>& world) {
   }
 }
 
-#define URTO_INSTANTIATE(S)                                      \
-  template Aabb<S> swept_bounds(const WorldData<S>&, Proxy);     \
-  template void mark_moved(WorldData<S>&, Proxy);                \
-  template void refresh_bounds(WorldData<S>&, std::uint32_t);    \
-  template void reset_bounds(WorldData<S>&, std::uint32_t);      \
+#define URTO_INSTANTIATE(S)                                   \
+  template Aabb<S> swept_bounds(const WorldData<S>&, Proxy);  \
+  template void mark_moved(WorldData<S>&, Proxy);             \
+  template void refresh_bounds(WorldData<S>&, std::uint32_t); \
+  template void reset_bounds(WorldData<S>&, std::uint32_t);   \
   template void update_broad_phase(WorldData<S>&);
 URTO_INSTANTIATE(float)
 URTO_INSTANTIATE(double)

@@ -14,16 +14,16 @@ enum ContactFlag : std::uint32_t {
 
 template <class S>
 struct ManifoldPoint {
-  S ax = 0, ay = 0;            // m, from a's centre of mass, world axes
-  S bx = 0, by = 0;            // m, from b's centre of mass: the same world point
-  S separation = 0;            // m, negative if penetrating, at the start of the step
-  S normal_impulse = 0;        // N·s of the last sub-step: warm start of the next
+  S ax = 0, ay = 0;      // m, from a's centre of mass, world axes
+  S bx = 0, by = 0;      // m, from b's centre of mass: the same world point
+  S separation = 0;      // m, negative if penetrating, at the start of the step
+  S normal_impulse = 0;  // N·s of the last sub-step: warm start of the next
   S tangent_impulse = 0;
   S preload = 0;               // N·s, slow average of the normal impulse: the load that rests on the point
   S total_normal_impulse = 0;  // N·s over the whole step
   S total_tangent_impulse = 0;
-  std::uint32_t id = 0;        // which features meet here
-  std::uint32_t unused = 0;    // no padding
+  std::uint32_t id = 0;      // which features meet here
+  std::uint32_t unused = 0;  // no padding
 };
 
 // Two shapes whose bounds overlap, and where they touch.
@@ -31,7 +31,7 @@ template <class S>
 struct Contact {
   std::uint32_t shape_a = kNone, shape_b = kNone;  // a < b
   std::uint32_t body_a = kNone, body_b = kNone;
-  std::uint32_t next[2] = {kNone, kNone};          // edges of the bodies' contact lists
+  std::uint32_t next[2] = {kNone, kNone};  // edges of the bodies' contact lists
   std::uint32_t prev[2] = {kNone, kNone};
   std::uint32_t active_index = kNone;
   std::uint32_t flags = 0;

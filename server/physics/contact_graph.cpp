@@ -8,10 +8,14 @@ namespace {
 template <class S>
 S mix(Mixing mixing, S a, S b) {
   switch (mixing) {
-    case Mixing::kGeometricMean: return std::sqrt(a * b);
-    case Mixing::kMaximum: return max_of(a, b);
-    case Mixing::kMinimum: return min_of(a, b);
-    case Mixing::kAverage: return S(0.5) * (a + b);
+    case Mixing::kGeometricMean:
+      return std::sqrt(a * b);
+    case Mixing::kMaximum:
+      return max_of(a, b);
+    case Mixing::kMinimum:
+      return min_of(a, b);
+    case Mixing::kAverage:
+      return S(0.5) * (a + b);
   }
   return a;
 }
@@ -171,12 +175,12 @@ void put_to_sleep(WorldData<S>& world, std::uint32_t slot) {
   });
 }
 
-#define URTO_INSTANTIATE(S)                                                       \
-  template std::uint32_t create_contact(WorldData<S>&, Proxy, Proxy);             \
-  template void destroy_contact(WorldData<S>&, std::uint32_t);                    \
-  template void wake_body(WorldData<S>&, std::uint32_t);                          \
-  template void wake_neighbours(WorldData<S>&, std::uint32_t);                    \
-  template void put_to_sleep(WorldData<S>&, std::uint32_t);                       \
+#define URTO_INSTANTIATE(S)                                           \
+  template std::uint32_t create_contact(WorldData<S>&, Proxy, Proxy); \
+  template void destroy_contact(WorldData<S>&, std::uint32_t);        \
+  template void wake_body(WorldData<S>&, std::uint32_t);              \
+  template void wake_neighbours(WorldData<S>&, std::uint32_t);        \
+  template void put_to_sleep(WorldData<S>&, std::uint32_t);           \
   template ContactEvent end_event(const WorldData<S>&, const Contact<S>&);
 URTO_INSTANTIATE(float)
 URTO_INSTANTIATE(double)

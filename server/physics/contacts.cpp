@@ -59,7 +59,8 @@ S approach_speed(const WorldData<S>& world, const Contact<S>& c) {
 
 template <class S>
 void update_contact(WorldData<S>& world, Contact<S>& c) {
-  if (world.settings.solver == SolverKind::kThesis && !c.sensor()) return;  // it looks for itself, in every sub-iteration
+  if (world.settings.solver == SolverKind::kThesis && !c.sensor())
+    return;  // it looks for itself, in every sub-iteration
   update_manifold(world, c);
   if (c.count == 0) return;
   if (!c.touching()) c.approach = approach_speed(world, c);
@@ -74,7 +75,8 @@ ContactEvent begin_event(const WorldData<S>& world, const Contact<S>& c) {
   ContactEvent event = end_event(world, c);
   event.kind = ContactEvent::Kind::kBegin;
   const Body<S>& a = world.bodies[c.body_a];
-  const ManifoldPoint<S>& p = c.count > 1 && c.points[1].separation < c.points[0].separation ? c.points[1] : c.points[0];
+  const ManifoldPoint<S>& p =
+      c.count > 1 && c.points[1].separation < c.points[0].separation ? c.points[1] : c.points[0];
   event.point = Vec2(double(a.x + p.ax), double(a.y + p.ay));
   event.normal = Vec2(double(c.nx), double(c.ny));
   event.approach_speed = double(c.approach);
@@ -134,9 +136,9 @@ void report_contact_events(WorldData<S>& world) {
   }
 }
 
-#define URTO_INSTANTIATE(S)                                      \
-  template void update_contacts(WorldData<S>&);                  \
-  template void report_contact_events(WorldData<S>&);            \
+#define URTO_INSTANTIATE(S)                           \
+  template void update_contacts(WorldData<S>&);       \
+  template void report_contact_events(WorldData<S>&); \
   template S reach_of(const WorldData<S>&, const Contact<S>&);
 URTO_INSTANTIATE(float)
 URTO_INSTANTIATE(double)

@@ -94,7 +94,8 @@ class ContinuousCollision {
   bool first_impact(Proxy low, Proxy high, S& time) const {
     const std::uint32_t a = world_.shapes[low].body, b = world_.shapes[high].body;
     const S first = min_of(stop_[a], stop_[b]), second = max_of(stop_[a], stop_[b]);
-    return impact_between(low, high, S(0), first, time) || (first < second && impact_between(low, high, first, second, time));
+    return impact_between(low, high, S(0), first, time) ||
+           (first < second && impact_between(low, high, first, second, time));
   }
 
   bool impact_between(Proxy low, Proxy high, S from, S to, S& time) const {

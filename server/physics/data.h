@@ -24,10 +24,10 @@ struct Scratch {
   std::vector<std::pair<Proxy, Proxy>> pairs;
   std::vector<Proxy> proxies;
   std::vector<std::uint32_t> stack;
-  std::vector<std::uint32_t> parent;     // union-find, by awake index
-  std::vector<std::uint8_t> restless;    // by root
-  std::vector<std::uint64_t> colors;     // by body slot
-  std::vector<std::uint32_t> fast;       // body slots
+  std::vector<std::uint32_t> parent;   // union-find, by awake index
+  std::vector<std::uint8_t> restless;  // by root
+  std::vector<std::uint64_t> colors;   // by body slot
+  std::vector<std::uint32_t> fast;     // body slots
 };
 
 template <class S>
@@ -35,13 +35,13 @@ struct WorldData {
   WorldSettings settings;
   std::uint64_t step_count = 0;
 
-  std::vector<Body<S>> bodies;    // by slot
-  std::vector<Motion<S>> motions; // by slot
+  std::vector<Body<S>> bodies;     // by slot
+  std::vector<Motion<S>> motions;  // by slot
   std::vector<std::uint32_t> free_bodies;
-  std::vector<Shape<S>> shapes;    // by slot: the proxies of the broad phase
-  std::vector<Convex<S>> convexes; // by shape slot
+  std::vector<Shape<S>> shapes;     // by slot: the proxies of the broad phase
+  std::vector<Convex<S>> convexes;  // by shape slot
   std::vector<std::uint32_t> free_shapes;
-  std::vector<Contact<S>> contacts; // by slot
+  std::vector<Contact<S>> contacts;  // by slot
   std::vector<std::uint32_t> free_contacts;
 
   std::vector<std::uint32_t> awake;   // body slots: awake and not static

@@ -32,13 +32,13 @@ inline constexpr std::uint32_t kPolygonInputVerticesMax = 64;
 inline constexpr std::uint32_t kPolygonVerticesMax = 8;  // of one convex shape inside
 inline constexpr std::uint32_t kForceFieldsMax = 16;
 inline constexpr std::uint32_t kSubStepsMax = 64;
-inline constexpr double kTimeStepMax = 0.1;            // s
-inline constexpr double kCoordinateMax = 1e7;          // m
-inline constexpr double kSpeedMax = 1e6;               // m/s, of what is set; nothing is clamped while stepping
-inline constexpr double kAngularSpeedMax = 1e6;        // rad/s
-inline constexpr double kSizeMin = 1e-4;               // m, of an edge or a radius
-inline constexpr double kSizeMax = 1e5;                // m
-inline constexpr double kDensityMax = 1e9;             // kg/m²
+inline constexpr double kTimeStepMax = 0.1;      // s
+inline constexpr double kCoordinateMax = 1e7;    // m
+inline constexpr double kSpeedMax = 1e6;         // m/s, of what is set; nothing is clamped while stepping
+inline constexpr double kAngularSpeedMax = 1e6;  // rad/s
+inline constexpr double kSizeMin = 1e-4;         // m, of an edge or a radius
+inline constexpr double kSizeMax = 1e5;          // m
+inline constexpr double kDensityMax = 1e9;       // kg/m²
 
 struct Material {
   double density = 1;      // kg/m², (0, kDensityMax]
@@ -53,15 +53,15 @@ struct Filter {
 };
 
 struct Box {
-  double width = 1;       // m
-  double height = 1;      // m
-  Vec2 center{0, 0};      // m, body frame
-  double angle = 0;       // rad, body frame
+  double width = 1;   // m
+  double height = 1;  // m
+  Vec2 center{0, 0};  // m, body frame
+  double angle = 0;   // rad, body frame
 };
 
 struct Circle {
-  double radius = 0.5;    // m
-  Vec2 center{0, 0};      // m, body frame
+  double radius = 0.5;  // m
+  Vec2 center{0, 0};    // m, body frame
 };
 
 // A simple polygon of either winding, 3 to kPolygonInputVerticesMax vertices. What is concave, or has more than
@@ -86,9 +86,9 @@ struct BodyDef {
   Vec2 velocity{0, 0};          // m/s, of the centre of mass
   double angular_velocity = 0;  // rad/s
   std::vector<ShapeDef> shapes;
-  std::optional<double> mass;   // kg > 0; absent: from the densities
-  double linear_damping = 0;    // 1/s ≥ 0
-  double angular_damping = 0;   // 1/s ≥ 0
+  std::optional<double> mass;  // kg > 0; absent: from the densities
+  double linear_damping = 0;   // 1/s ≥ 0
+  double angular_damping = 0;  // 1/s ≥ 0
   double gravity_scale = 1;
   bool fixed_rotation = false;
   bool awake = true;
@@ -118,9 +118,9 @@ using ForceField = std::variant<PointAttractor, Drag, Spring>;
 
 struct WorldSettings {
   Precision precision = Precision::kFloat;
-  Vec2 gravity{0, -9.81};          // m/s²
-  double time_step = 1.0 / 60.0;   // s, (0, kTimeStepMax]
-  std::uint32_t sub_steps = 4;     // [1, kSubStepsMax]
+  Vec2 gravity{0, -9.81};         // m/s²
+  double time_step = 1.0 / 60.0;  // s, (0, kTimeStepMax]
+  std::uint32_t sub_steps = 4;    // [1, kSubStepsMax]
   SolverKind solver = SolverKind::kSoftStep;
   Integrator integrator = Integrator::kSemiImplicitEuler;
   BroadPhaseKind broad_phase = BroadPhaseKind::kAuto;

@@ -8,12 +8,12 @@ namespace urto {
 
 // What was wrong with an argument of the public API.
 enum class ErrorCode : std::uint8_t {
-  kInvalidValue,      // outside its range, or not finite
-  kUnknownBody,       // no body has this id (any more)
-  kDegenerateShape,   // a polygon without area, crossing itself, or too thin
-  kWrongBodyType,     // an impulse on a static body, say
-  kLimitReached,      // a named bound of definitions.h
-  kCorruptState,      // a saved state that is not one of this version and precision
+  kInvalidValue,     // outside its range, or not finite
+  kUnknownBody,      // no body has this id (any more)
+  kDegenerateShape,  // a polygon without area, crossing itself, or too thin
+  kWrongBodyType,    // an impulse on a static body, say
+  kLimitReached,     // a named bound of definitions.h
+  kCorruptState,     // a saved state that is not one of this version and precision
 };
 
 // A refusal. Whatever call returns one has left the world as it was.

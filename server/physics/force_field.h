@@ -7,9 +7,17 @@ namespace urto {
 // The sum of the scene's force fields, ready in the world's scalar.
 template <class S>
 struct Fields {
-  struct Attractor { Vec<S> center; S strength, softening_squared; };
-  struct Dragging { S linear, quadratic; };
-  struct Springing { Vec<S> center; S stiffness, damping; };
+  struct Attractor {
+    Vec<S> center;
+    S strength, softening_squared;
+  };
+  struct Dragging {
+    S linear, quadratic;
+  };
+  struct Springing {
+    Vec<S> center;
+    S stiffness, damping;
+  };
   std::vector<Attractor> attractors;
   std::vector<Dragging> drags;
   std::vector<Springing> springs;

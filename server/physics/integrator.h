@@ -34,7 +34,8 @@ Flight<S> advance(Integrator integrator, const Flight<S>& f, S h, const Accelera
       const Vec<S> a1 = acceleration(x, Vec<S>(f.v + a0 * h));
       return {x, f.v + (a0 + a1) * (S(0.5) * h)};
     }
-    case Integrator::kRungeKutta4: break;
+    case Integrator::kRungeKutta4:
+      break;
   }
   const S half = S(0.5) * h;
   const Vec<S> v1 = f.v, a1 = acceleration(f.x, f.v);

@@ -19,20 +19,28 @@ bool mixes_to_nonzero(Mixing mixing, std::uint32_t shapes_with_it) {
 
 const char* name_of(BroadPhaseKind kind) {
   switch (kind) {
-    case BroadPhaseKind::kBruteForce: return "brute force";
-    case BroadPhaseKind::kQuadtree: return "quadtree";
-    case BroadPhaseKind::kBvh: return "dynamic BVH";
-    case BroadPhaseKind::kAuto: break;
+    case BroadPhaseKind::kBruteForce:
+      return "brute force";
+    case BroadPhaseKind::kQuadtree:
+      return "quadtree";
+    case BroadPhaseKind::kBvh:
+      return "dynamic BVH";
+    case BroadPhaseKind::kAuto:
+      break;
   }
   return "auto";
 }
 
 const char* name_of(Integrator integrator) {
   switch (integrator) {
-    case Integrator::kSemiImplicitEuler: return "semi-implicit Euler";
-    case Integrator::kExplicitEuler: return "explicit Euler";
-    case Integrator::kVerlet: return "Verlet";
-    case Integrator::kRungeKutta4: return "Runge-Kutta 4";
+    case Integrator::kSemiImplicitEuler:
+      return "semi-implicit Euler";
+    case Integrator::kExplicitEuler:
+      return "explicit Euler";
+    case Integrator::kVerlet:
+      return "Verlet";
+    case Integrator::kRungeKutta4:
+      return "Runge-Kutta 4";
   }
   return "";
 }
@@ -60,13 +68,17 @@ std::vector<Feature> explain_model(const WorldSettings& settings, const Needs& n
   const bool soft = settings.solver == SolverKind::kSoftStep;
   const bool polygons = needs.boxes + needs.polygons > 0;
   std::vector<Feature> out;
-  out.push_back({"precision", settings.precision == Precision::kFloat ? "float" : "double", true, "the scene names it"});
+  out.push_back(
+      {"precision", settings.precision == Precision::kFloat ? "float" : "double", true, "the scene names it"});
   out.push_back({"broad phase", name_of(model.broad_phase), true,
                  asked_broad ? "the scene names it" : count_of(needs.shapes, "shapes")});
-  out.push_back({"narrow phase",
-                 !polygons ? "circles" : settings.narrow_phase == NarrowPhaseKind::kSat ? "SAT" : "GJK and EPA", true,
-                 count_of(needs.boxes, "boxes, ") + count_of(needs.polygons, "polygons, ") +
-                     count_of(needs.circles, "circles")});
+  out.push_back(
+      {"narrow phase",
+       !polygons                                        ? "circles"
+       : settings.narrow_phase == NarrowPhaseKind::kSat ? "SAT"
+                                                        : "GJK and EPA",
+       true,
+       count_of(needs.boxes, "boxes, ") + count_of(needs.polygons, "polygons, ") + count_of(needs.circles, "circles")});
   out.push_back({"solver", soft ? "soft step" : "thesis", true, count_of(settings.sub_steps, "sub-steps")});
   out.push_back({"integrator", name_of(settings.integrator), true, "the scene names it"});
   out.push_back({"rotation", needs.rotating_bodies > 0 ? "on" : "off", needs.rotating_bodies > 0,
@@ -75,13 +87,15 @@ std::vector<Feature> explain_model(const WorldSettings& settings, const Needs& n
                  count_of(needs.rough_shapes, "shapes have friction")});
   out.push_back({"restitution", model.restitution ? "on" : "off", model.restitution,
                  count_of(needs.bouncing_shapes, "shapes have restitution")});
-  out.push_back({"damping", model.damping ? "on" : "off", model.damping,
-                 count_of(needs.damped_bodies, "bodies are damped")});
+  out.push_back(
+      {"damping", model.damping ? "on" : "off", model.damping, count_of(needs.damped_bodies, "bodies are damped")});
   out.push_back({"force fields", model.fields ? "on" : "off", model.fields,
                  count_of(static_cast<std::uint32_t>(settings.fields.size()), "fields besides gravity")});
   out.push_back({"sensors", needs.sensors > 0 ? "on" : "off", needs.sensors > 0, count_of(needs.sensors, "sensors")});
   out.push_back({"sleeping", model.sleeping ? "on" : "off", model.sleeping,
-                 !soft ? "the thesis's solver has no rest" : settings.sleeping ? "the default" : "the scene forbids it"});
+                 !soft               ? "the thesis's solver has no rest"
+                 : settings.sleeping ? "the default"
+                                     : "the scene forbids it"});
   out.push_back({"continuous collision", model.continuous ? "on" : "off", model.continuous,
                  settings.continuous ? "only bodies that move further than their half-thickness pay for it"
                                      : "the scene forbids it"});

@@ -12,8 +12,8 @@ namespace urto {
 struct Needs {
   std::uint32_t bodies = 0, dynamic_bodies = 0, rotating_bodies = 0, damped_bodies = 0;
   std::uint32_t shapes = 0, circles = 0, boxes = 0, polygons = 0, sensors = 0;
-  std::uint32_t rough_shapes = 0;    // with friction
-  std::uint32_t bouncing_shapes = 0; // with restitution
+  std::uint32_t rough_shapes = 0;     // with friction
+  std::uint32_t bouncing_shapes = 0;  // with restitution
 };
 
 // What runs in a step: the one place where features are switched on or left out.

@@ -15,10 +15,12 @@ void rotation_by(S angle, S& c, S& s) {
     s = angle * (S(1) + q * (S(-1.0 / 6) + q * (S(1.0 / 120) + q * S(-1.0 / 5040))));
     c = S(1) + q * (S(-0.5) + q * (S(1.0 / 24) + q * S(-1.0 / 720)));
   } else {
-    s = angle * (1 + q * (-1.0 / 6 + q * (1.0 / 120 + q * (-1.0 / 5040 + q * (1.0 / 362880 + q * (-1.0 / 39916800 +
-                 q * (1.0 / 6227020800.0)))))));
-    c = 1 + q * (-0.5 + q * (1.0 / 24 + q * (-1.0 / 720 + q * (1.0 / 40320 + q * (-1.0 / 3628800 +
-            q * (1.0 / 479001600.0))))));
+    s = angle *
+        (1 + q * (-1.0 / 6 +
+                  q * (1.0 / 120 +
+                       q * (-1.0 / 5040 + q * (1.0 / 362880 + q * (-1.0 / 39916800 + q * (1.0 / 6227020800.0)))))));
+    c = 1 + q * (-0.5 + q * (1.0 / 24 +
+                             q * (-1.0 / 720 + q * (1.0 / 40320 + q * (-1.0 / 3628800 + q * (1.0 / 479001600.0))))));
   }
 }
 
@@ -85,9 +87,9 @@ void Mover<S>::fly(const Body<S>& body, Motion<S>& motion) const {
   motion.dx = next.x.x() - start.x();
   motion.dy = next.x.y() - start.y();
   if (!body.can_rotate()) return;
-  motion.da += h_ * (integrator_ == Integrator::kExplicitEuler            ? w
+  motion.da += h_ * (integrator_ == Integrator::kExplicitEuler       ? w
                      : integrator_ == Integrator::kSemiImplicitEuler ? motion.w
-                                                                          : S(0.5) * (w + motion.w));
+                                                                     : S(0.5) * (w + motion.w));
   rotation_by(motion.da, motion.c, motion.s);
 }
 
@@ -99,11 +101,13 @@ void finish_motion(Body<S>& body, Motion<S>& motion, S time_step) {
     body.angle = wrap_angle(body.angle + motion.da);
     sin_cos(body.angle, body.s, body.c);
   }
+  // Also what the velocities do not show: bodies that overlap are pushed apart by bias alone.
+  const S turn = absolute(motion.da) * body.extent_max, turning = absolute(motion.w) * body.extent_max;
+  const S way2 = (motion.dx * motion.dx + motion.dy * motion.dy + turn * turn) / (time_step * time_step);
+  const S speed2 = max_of(way2, motion.vx * motion.vx + motion.vy * motion.vy + turning * turning);
   motion.dx = motion.dy = motion.da = S(0);
   motion.c = S(1);
   motion.s = S(0);
-  const S turning = absolute(motion.w) * body.extent_max;
-  const S speed2 = motion.vx * motion.vx + motion.vy * motion.vy + turning * turning;
   body.sleep_time = speed2 > S(kSleepSpeed * kSleepSpeed) ? S(0) : body.sleep_time + time_step;
 }
 

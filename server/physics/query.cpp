@@ -31,9 +31,8 @@ void sort_unique(std::vector<BodyId>& ids) {
 // Keeps the best hit of each body (the one with the least key), then orders by key, then id.
 template <class Hit, class Key>
 void keep_best(std::vector<Hit>& hits, Key key) {
-  std::sort(hits.begin(), hits.end(), [&](const Hit& a, const Hit& b) {
-    return a.body != b.body ? a.body < b.body : key(a) < key(b);
-  });
+  std::sort(hits.begin(), hits.end(),
+            [&](const Hit& a, const Hit& b) { return a.body != b.body ? a.body < b.body : key(a) < key(b); });
   hits.erase(std::unique(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.body == b.body; }),
              hits.end());
   std::stable_sort(hits.begin(), hits.end(), [&](const Hit& a, const Hit& b) { return key(a) < key(b); });
@@ -152,12 +151,12 @@ std::vector<ContactPoint> contact_points_of(const WorldData<S>& world) {
   return out;
 }
 
-#define URTO_INSTANTIATE(S)                                                                                      \
-  template std::vector<BodyId> bodies_at(const WorldData<S>&, const Vec2&);                                      \
-  template std::vector<BodyId> bodies_in(const WorldData<S>&, const Vec2&, const Vec2&);                         \
-  template std::vector<RayHit> bodies_along(const WorldData<S>&, const Vec2&, const Vec2&);                      \
-  template std::vector<NearHit> bodies_near(const WorldData<S>&, const Vec2&, double, std::uint32_t);            \
-  template Energy energy_of(const WorldData<S>&);                                                                \
+#define URTO_INSTANTIATE(S)                                                                           \
+  template std::vector<BodyId> bodies_at(const WorldData<S>&, const Vec2&);                           \
+  template std::vector<BodyId> bodies_in(const WorldData<S>&, const Vec2&, const Vec2&);              \
+  template std::vector<RayHit> bodies_along(const WorldData<S>&, const Vec2&, const Vec2&);           \
+  template std::vector<NearHit> bodies_near(const WorldData<S>&, const Vec2&, double, std::uint32_t); \
+  template Energy energy_of(const WorldData<S>&);                                                     \
   template std::vector<ContactPoint> contact_points_of(const WorldData<S>&);
 URTO_INSTANTIATE(float)
 URTO_INSTANTIATE(double)

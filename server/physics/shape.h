@@ -20,15 +20,15 @@ enum ShapeFlag : std::uint32_t {
 template <class S>
 struct Shape {
   std::uint32_t body = kNone;
-  std::uint32_t next = kNone;        // of the same body
-  std::uint32_t kind = 0;            // ShapeKind
+  std::uint32_t next = kNone;  // of the same body
+  std::uint32_t kind = 0;      // ShapeKind
   std::uint32_t flags = 0;
   std::uint32_t category = 1, mask = 0xffffffffu;
   S friction = 0, restitution = 0;
-  S reach = 0;                       // m, speculative distance
-  S margin = 0;                      // m, of the fat bounds
-  S half_width = 0, half_height = 0; // m, boxes: in the convex's own axes
-  Aabb<S> fat;                       // as the broad phase knows it
+  S reach = 0;                        // m, speculative distance
+  S margin = 0;                       // m, of the fat bounds
+  S half_width = 0, half_height = 0;  // m, boxes: in the convex's own axes
+  Aabb<S> fat;                        // as the broad phase knows it
 
   ShapeKind shape_kind() const { return static_cast<ShapeKind>(kind); }
   bool alive() const { return (flags & kShapeAlive) != 0; }

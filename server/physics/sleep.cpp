@@ -53,8 +53,10 @@ void mark_restless(WorldData<S>& world) {
     const Contact<S>& c = world.contacts[slot];
     if (c.count == 0 || c.sensor()) continue;
     const Body<S>&a = world.bodies[c.body_a], &b = world.bodies[c.body_b];
-    if (a.dynamic() && b.body_type() == BodyType::kKinematic && b.awake()) restless[find_root(parent, a.awake_index)] = 1;
-    if (b.dynamic() && a.body_type() == BodyType::kKinematic && a.awake()) restless[find_root(parent, b.awake_index)] = 1;
+    if (a.dynamic() && b.body_type() == BodyType::kKinematic && b.awake())
+      restless[find_root(parent, a.awake_index)] = 1;
+    if (b.dynamic() && a.body_type() == BodyType::kKinematic && a.awake())
+      restless[find_root(parent, b.awake_index)] = 1;
   }
 }
 

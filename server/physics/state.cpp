@@ -168,7 +168,8 @@ Status check_header(std::span<const std::byte> block) {
   std::memcpy(&header, block.data(), sizeof header);
   if (header.magic != kMagic) return corrupt(std::to_string(header.magic), "this is not a saved state");
   if (header.version != kVersion) return corrupt(std::to_string(header.version), "the state is of another version");
-  if (header.scalar_bytes != sizeof(S)) return corrupt(std::to_string(header.scalar_bytes), "the state is of another precision");
+  if (header.scalar_bytes != sizeof(S))
+    return corrupt(std::to_string(header.scalar_bytes), "the state is of another precision");
   if (header.unused != 0 || header.payload_bytes != block.size() - sizeof header)
     return corrupt(std::to_string(header.payload_bytes), "the state has another size than it says");
   if (header.checksum != hash_of_state(block)) return corrupt("checksum", "the state is damaged");
@@ -229,8 +230,8 @@ Status restore_state(WorldData<S>& world, std::span<const std::byte> block) {
   return {};
 }
 
-#define URTO_INSTANTIATE(S)                                                    \
-  template std::vector<std::byte> save_state(const WorldData<S>&);             \
+#define URTO_INSTANTIATE(S)                                        \
+  template std::vector<std::byte> save_state(const WorldData<S>&); \
   template Status restore_state(WorldData<S>&, std::span<const std::byte>);
 URTO_INSTANTIATE(float)
 URTO_INSTANTIATE(double)

@@ -11,7 +11,7 @@ namespace {
 constexpr double kAccelerationMax = 1e6;  // m/s²
 constexpr double kCoefficientMax = 1e12;  // of damping, stiffness and the like
 constexpr double kFrictionMax = 1e3;
-constexpr double kMassMax = 1e15;         // kg
+constexpr double kMassMax = 1e15;  // kg
 
 std::string text_of(double value) {
   char buffer[32];
@@ -159,7 +159,8 @@ Status check_settings(const WorldSettings& s) {
       .range("restitution_threshold", s.restitution_threshold, 0, kSpeedMax)
       .require(s.fields.size() <= kForceFieldsMax, ErrorCode::kLimitReached, "fields", std::to_string(s.fields.size()),
                "too many force fields");
-  for (std::size_t i = 0; i < s.fields.size(); ++i) checks.add(Checks(indexed("fields", i)).add(check_field(s.fields[i])).result());
+  for (std::size_t i = 0; i < s.fields.size(); ++i)
+    checks.add(Checks(indexed("fields", i)).add(check_field(s.fields[i])).result());
   return checks.result();
 }
 

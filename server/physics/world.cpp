@@ -29,7 +29,8 @@ void sort_by_id(BodyColumns& columns) {
   if (std::is_sorted(columns.id.begin(), columns.id.end())) return;
   std::vector<std::uint32_t> order(columns.id.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return columns.id[a] < columns.id[b]; });
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return columns.id[a] < columns.id[b]; });
   const auto reorder = [&](auto& column) {
     auto sorted = column;
     for (std::size_t i = 0; i < order.size(); ++i) sorted[i] = column[order[i]];
@@ -37,8 +38,8 @@ void sort_by_id(BodyColumns& columns) {
   };
   reorder(columns.id);
   reorder(columns.awake);
-  for (std::vector<double>* column : {&columns.x, &columns.y, &columns.angle, &columns.velocity_x, &columns.velocity_y,
-                                      &columns.angular_velocity})
+  for (std::vector<double>* column :
+       {&columns.x, &columns.y, &columns.angle, &columns.velocity_x, &columns.velocity_y, &columns.angular_velocity})
     reorder(*column);
 }
 
@@ -46,12 +47,18 @@ void sort_by_id(BodyColumns& columns) {
 
 const char* phase_name(Phase phase) {
   switch (phase) {
-    case Phase::kUpdateBroadPhase: return "update_broad_phase";
-    case Phase::kUpdateContacts: return "update_contacts";
-    case Phase::kSolve: return "solve";
-    case Phase::kContinuousCollision: return "continuous_collision";
-    case Phase::kUpdateSleep: return "update_sleep";
-    case Phase::kCount: break;
+    case Phase::kUpdateBroadPhase:
+      return "update_broad_phase";
+    case Phase::kUpdateContacts:
+      return "update_contacts";
+    case Phase::kSolve:
+      return "solve";
+    case Phase::kContinuousCollision:
+      return "continuous_collision";
+    case Phase::kUpdateSleep:
+      return "update_sleep";
+    case Phase::kCount:
+      break;
   }
   return "";
 }
@@ -167,9 +174,9 @@ Expected<BodyState> WorldOf<S>::body(BodyId id) const {
   const Body<S>& b = data_.bodies[slot];
   const Motion<S>& m = data_.motions[slot];
   const Vec<S> origin = b.origin();
-  return BodyState{b.body_type(),  Vec2(double(origin.x()), double(origin.y())),
+  return BodyState{b.body_type(),   Vec2(double(origin.x()), double(origin.y())),
                    double(b.angle), Vec2(double(m.vx), double(m.vy)),
-                   double(m.w),    b.awake()};
+                   double(m.w),     b.awake()};
 }
 
 template <class S>
@@ -293,8 +300,8 @@ template <class S>
 void WorldOf<S>::capture(BodyColumns& out, bool include_static) const {
   out.id.clear();
   out.awake.clear();
-  std::vector<double>* const columns[] = {&out.x, &out.y, &out.angle, &out.velocity_x, &out.velocity_y,
-                                          &out.angular_velocity};
+  std::vector<double>* const columns[] = {&out.x,          &out.y,          &out.angle,
+                                          &out.velocity_x, &out.velocity_y, &out.angular_velocity};
   for (std::vector<double>* column : columns) column->clear();
   for (std::uint32_t slot = 0; slot < data_.bodies.size(); ++slot) {
     const Body<S>& b = data_.bodies[slot];
@@ -349,14 +356,17 @@ std::vector<Feature> WorldOf<S>::model() const {
 
 template <class S>
 Expected<std::vector<BodyId>> WorldOf<S>::query_point(const Vec2& point) const {
-  if (Status status = check_vector("point", point, kCoordinateMax); !status) return tl::unexpected<Error>(status.error());
+  if (Status status = check_vector("point", point, kCoordinateMax); !status)
+    return tl::unexpected<Error>(status.error());
   return bodies_at(data_, point);
 }
 
 template <class S>
 Expected<std::vector<BodyId>> WorldOf<S>::query_aabb(const Vec2& lower, const Vec2& upper) const {
-  if (Status status = check_vector("lower", lower, kCoordinateMax); !status) return tl::unexpected<Error>(status.error());
-  if (Status status = check_vector("upper", upper, kCoordinateMax); !status) return tl::unexpected<Error>(status.error());
+  if (Status status = check_vector("lower", lower, kCoordinateMax); !status)
+    return tl::unexpected<Error>(status.error());
+  if (Status status = check_vector("upper", upper, kCoordinateMax); !status)
+    return tl::unexpected<Error>(status.error());
   if (lower.x() > upper.x() || lower.y() > upper.y())
     return failure(ErrorCode::kInvalidValue, "upper", std::to_string(upper.x()) + ", " + std::to_string(upper.y()),
                    "the upper corner must not be below or left of the lower one");
@@ -365,7 +375,8 @@ Expected<std::vector<BodyId>> WorldOf<S>::query_aabb(const Vec2& lower, const Ve
 
 template <class S>
 Expected<std::vector<RayHit>> WorldOf<S>::query_ray(const Vec2& origin, const Vec2& translation) const {
-  if (Status status = check_vector("origin", origin, kCoordinateMax); !status) return tl::unexpected<Error>(status.error());
+  if (Status status = check_vector("origin", origin, kCoordinateMax); !status)
+    return tl::unexpected<Error>(status.error());
   if (Status status = check_vector("translation", translation, kCoordinateMax); !status)
     return tl::unexpected<Error>(status.error());
   return bodies_along(data_, origin, translation);
@@ -374,7 +385,8 @@ Expected<std::vector<RayHit>> WorldOf<S>::query_ray(const Vec2& origin, const Ve
 template <class S>
 Expected<std::vector<NearHit>> WorldOf<S>::query_nearest(const Vec2& point, double distance_max,
                                                          std::uint32_t count_max) const {
-  if (Status status = check_vector("point", point, kCoordinateMax); !status) return tl::unexpected<Error>(status.error());
+  if (Status status = check_vector("point", point, kCoordinateMax); !status)
+    return tl::unexpected<Error>(status.error());
   if (!(distance_max >= 0 && distance_max <= kCoordinateMax))
     return failure(ErrorCode::kInvalidValue, "distance_max", std::to_string(distance_max),
                    "distance_max must be between 0 and 1e7");

@@ -27,19 +27,19 @@ struct BodyState {
 };
 
 struct MassProperties {
-  double mass = 0;               // kg; 0 unless dynamic
-  double inertia = 0;            // kg·m² about the centre of mass; 0 unless dynamic
-  Vec2 center_of_mass{0, 0};     // m, body frame
+  double mass = 0;            // kg; 0 unless dynamic
+  double inertia = 0;         // kg·m² about the centre of mass; 0 unless dynamic
+  Vec2 center_of_mass{0, 0};  // m, body frame
 };
 
 // The state of many bodies as columns of one length, ascending id.
 struct BodyColumns {
   std::vector<BodyId> id;
-  std::vector<double> x, y;              // m, of the body's origin
-  std::vector<double> angle;             // rad, (−π, π]
+  std::vector<double> x, y;                    // m, of the body's origin
+  std::vector<double> angle;                   // rad, (−π, π]
   std::vector<double> velocity_x, velocity_y;  // m/s
-  std::vector<double> angular_velocity;  // rad/s
-  std::vector<std::uint8_t> awake;       // 0 or 1
+  std::vector<double> angular_velocity;        // rad/s
+  std::vector<std::uint8_t> awake;             // 0 or 1
 };
 
 struct ContactPoint {
@@ -63,9 +63,9 @@ struct ContactEvent {
 
 struct RayHit {
   BodyId body = 0;
-  Vec2 point{0, 0};    // m, world frame
-  Vec2 normal{0, 0};   // unit, out of the body; zero if the ray starts inside
-  double fraction = 0; // of the translation, [0, 1]
+  Vec2 point{0, 0};     // m, world frame
+  Vec2 normal{0, 0};    // unit, out of the body; zero if the ray starts inside
+  double fraction = 0;  // of the translation, [0, 1]
 };
 
 struct NearHit {

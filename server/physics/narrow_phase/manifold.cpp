@@ -104,9 +104,11 @@ Manifold<S> clip(const Convex<S>& reference, std::uint32_t face, const Convex<S>
   const std::uint32_t side = flip ? ManifoldIds::kFlip : 0u;
   // Midway between the surfaces.
   if (sp - radii <= reach)
-    add_point<S>(m, p - normal * (S(0.5) * (sp + other.radius - reference.radius)), sp - radii, side | (face << 8) | j1);
+    add_point<S>(m, p - normal * (S(0.5) * (sp + other.radius - reference.radius)), sp - radii,
+                 side | (face << 8) | j1);
   if (sq - radii <= reach)
-    add_point<S>(m, q - normal * (S(0.5) * (sq + other.radius - reference.radius)), sq - radii, side | (face << 8) | j2);
+    add_point<S>(m, q - normal * (S(0.5) * (sq + other.radius - reference.radius)), sq - radii,
+                 side | (face << 8) | j2);
   return m;
 }
 
@@ -217,9 +219,9 @@ LocalManifold<S> collide(const Convex<S>& a, const Convex<S>& b, const Transform
   return kind == NarrowPhaseKind::kGjk ? collide_polygons_gjk(a, moved, reach) : collide_polygons_sat(a, moved, reach);
 }
 
-#define URTO_INSTANTIATE(S)                                                                                          \
-  template LocalManifold<S> collide(const Convex<S>&, const Convex<S>&, const Transform<S>&, S, NarrowPhaseKind);    \
-  template FaceSeparation<S> max_face_separation(const Convex<S>&, const Convex<S>&);                                \
+#define URTO_INSTANTIATE(S)                                                                                       \
+  template LocalManifold<S> collide(const Convex<S>&, const Convex<S>&, const Transform<S>&, S, NarrowPhaseKind); \
+  template FaceSeparation<S> max_face_separation(const Convex<S>&, const Convex<S>&);                             \
   template Convex<S> placed(const Convex<S>&, const Transform<S>&);
 URTO_INSTANTIATE(float)
 URTO_INSTANTIATE(double)

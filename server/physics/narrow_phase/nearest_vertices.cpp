@@ -41,8 +41,8 @@ template <class S>
 void search(const Convex<S>& edges, const Convex<S>& vertices, Search<S>& s) {
   for (std::uint32_t i = 0; i < vertices.count; ++i) {
     for (std::uint32_t j = 0; j < edges.count; ++j) {
-      const Vec<S> q = nearest_on_edge(edges.vertices[j], edges.vertices[j + 1 < edges.count ? j + 1 : 0],
-                                       vertices.vertices[i]);
+      const Vec<S> q =
+          nearest_on_edge(edges.vertices[j], edges.vertices[j + 1 < edges.count ? j + 1 : 0], vertices.vertices[i]);
       const Vec<S> d = vertices.vertices[i] - q;
       s.offer(q, dot<S>(d, d));
     }

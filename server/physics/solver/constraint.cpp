@@ -108,8 +108,7 @@ void prepare_contact(const WorldData<S>& world, ContactConstraint<S>& k, const S
   k.share_a = inv_masses > S(0) ? b.inv_mass / inv_masses : S(0);
   k.bias_rate = soft.bias_rate;
   k.compliance = soft.compliance;
-  for (int i = 0; i < k.count; ++i)
-    prepare_point(k.points[i], c.points[i], k, world.motions[k.a], world.motions[k.b]);
+  for (int i = 0; i < k.count; ++i) prepare_point(k.points[i], c.points[i], k, world.motions[k.a], world.motions[k.b]);
   if (k.count < 2) return;
   const ConstraintPoint<S>&p = k.points[0], &q = k.points[1];
   const S pa = p.ax * k.ny - p.ay * k.nx, pb = p.bx * k.ny - p.by * k.nx;
@@ -141,8 +140,8 @@ void store_impulses(WorldData<S>& world, const ConstraintSet<S>& set) {
   }
 }
 
-#define URTO_INSTANTIATE(S)                                                    \
-  template void prepare_contacts(WorldData<S>&, ConstraintSet<S>&, S);         \
+#define URTO_INSTANTIATE(S)                                            \
+  template void prepare_contacts(WorldData<S>&, ConstraintSet<S>&, S); \
   template void store_impulses(WorldData<S>&, const ConstraintSet<S>&);
 URTO_INSTANTIATE(float)
 URTO_INSTANTIATE(double)

@@ -9,14 +9,14 @@ namespace urto {
 // One contact point as the solver sees it.
 template <class S>
 struct ConstraintPoint {
-  S ax, ay, bx, by;              // m, anchors from the centres of mass at the start of the step, world axes
-  S separation;                  // m, at the start of the step
-  S inverse_mass;                // 1/kg along the normal: k = 1/m + 1/m + (r×n)²/I + (r×n)²/I
-  S tangent_mass;                // kg along the tangent
-  S normal_impulse, tangent_impulse;              // N·s, of this sub-step
-  S preload;                                      // N·s, see Softness
+  S ax, ay, bx, by;                   // m, anchors from the centres of mass at the start of the step, world axes
+  S separation;                       // m, at the start of the step
+  S inverse_mass;                     // 1/kg along the normal: k = 1/m + 1/m + (r×n)²/I + (r×n)²/I
+  S tangent_mass;                     // kg along the tangent
+  S normal_impulse, tangent_impulse;  // N·s, of this sub-step
+  S preload;                          // N·s, see Softness
   S total_normal_impulse, total_tangent_impulse;  // N·s, of the step so far
-  S approach;                    // m/s, normal velocity at the start of the step, negative if closing
+  S approach;                                     // m/s, normal velocity at the start of the step, negative if closing
 };
 
 // A touching contact, ready to be solved.
@@ -28,7 +28,7 @@ struct ContactConstraint {
   S nx, ny;
   S friction, restitution;
   S inv_mass_a, inv_inertia_a, inv_mass_b, inv_inertia_b;
-  S share_a;  // how much of the drift of the two centres is a's, see solve_contact
+  S share_a;     // how much of the drift of the two centres is a's, see solve_contact
   S coupling;    // 1/kg: how an impulse at one point moves the other
   S bias_rate;   // 1/s
   S compliance;  // of the inverse mass, see Softness

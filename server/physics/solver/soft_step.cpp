@@ -120,7 +120,8 @@ template <class S>
 TwoImpulses<S> solve_two(S k11, S k12, S k22, S q1, S q2) {
   const S determinant = k11 * k22 - k12 * k12;
   const S d1 = k22 * q1 - k12 * q2, d2 = k11 * q2 - k12 * q1;
-  if (determinant > S(kDeterminantMin) * k11 * k22 && d1 >= S(0) && d2 >= S(0)) return {d1 / determinant, d2 / determinant};
+  if (determinant > S(kDeterminantMin) * k11 * k22 && d1 >= S(0) && d2 >= S(0))
+    return {d1 / determinant, d2 / determinant};
   if (q1 >= S(0) && k12 * q1 >= k11 * q2) return {q1 / k11, S(0)};
   if (q2 >= S(0) && k12 * q2 >= k22 * q1) return {S(0), q2 / k22};
   return {S(0), S(0)};
@@ -133,25 +134,31 @@ void solve_normals(ContactConstraint<S>& k, Motion<S>& a, Motion<S>& b, S driftx
   const Demand<S> d1 = demand_of(k, p1, a, b, driftx, drifty, step), d2 = demand_of(k, p2, a, b, driftx, drifty, step);
   const Arms<S> r1(p1, k.share_a, driftx, drifty), r2(p2, k.share_a, driftx, drifty);
   const S v1 = relative_velocity(a, b, r1, k.nx, k.ny), v2 = relative_velocity(a, b, r2, k.nx, k.ny);
-  const S q1 = p1.inverse_mass * p1.normal_impulse + k.coupling * p2.normal_impulse - v1 - d1.bias + d1.compliance * p1.preload;
-  const S q2 = k.coupling * p1.normal_impulse + p2.inverse_mass * p2.normal_impulse - v2 - d2.bias + d2.compliance * p2.preload;
+  const S q1 =
+      p1.inverse_mass * p1.normal_impulse + k.coupling * p2.normal_impulse - v1 - d1.bias + d1.compliance * p1.preload;
+  const S q2 =
+      k.coupling * p1.normal_impulse + p2.inverse_mass * p2.normal_impulse - v2 - d2.bias + d2.compliance * p2.preload;
   const TwoImpulses<S> next =
       solve_two(p1.inverse_mass + d1.compliance, k.coupling, p2.inverse_mass + d2.compliance, q1, q2);
   push(k, p1, a, b, r1, next.first);
   push(k, p2, a, b, r2, next.second);
 }
 
-// One Gauss-Seidel pass over a contact: friction first, so that the last word is that bodies do not penetrate.
+// One Gauss-Seidel pass over a contact. With bias friction comes first, so that the last word before bodies move is
+// that they do not penetrate. In the relaxation it comes last, bounded by the impulse without the spring's share:
+// a bound from the spring would make a slope a little too slippery.
 template <class S>
 void solve_contact(WorldData<S>& world, ContactConstraint<S>& k, const SubStep<S>& step) {
   Motion<S>&a = world.motions[k.a], &b = world.motions[k.b];
   const S driftx = b.dx - a.dx, drifty = b.dy - a.dy;
-  if (step.friction && k.friction > S(0)) solve_friction(k, a, b, driftx, drifty);
+  const bool rough = step.friction && k.friction > S(0);
+  if (rough && step.use_bias) solve_friction(k, a, b, driftx, drifty);
   if (k.count == 2) {
     solve_normals(k, a, b, driftx, drifty, step);
   } else {
     solve_normal(k, a, b, driftx, drifty, step);
   }
+  if (rough && !step.use_bias) solve_friction(k, a, b, driftx, drifty);
 }
 
 template <class S>
@@ -191,10 +198,10 @@ void restitute(WorldData<S>& world, ContactConstraint<S>& k, S threshold) {
     const S before2 = p2.normal_impulse;
     const Arms<S> r2(p2, k.share_a, driftx, drifty);
     const S v2 = relative_velocity(a, b, r2, k.nx, k.ny);
-    const TwoImpulses<S> next = solve_two(
-        p1.inverse_mass, k.coupling, p2.inverse_mass,
-        p1.inverse_mass * p1.normal_impulse + k.coupling * p2.normal_impulse + u1 - v1,
-        k.coupling * p1.normal_impulse + p2.inverse_mass * p2.normal_impulse + u2 - v2);
+    const TwoImpulses<S> next =
+        solve_two(p1.inverse_mass, k.coupling, p2.inverse_mass,
+                  p1.inverse_mass * p1.normal_impulse + k.coupling * p2.normal_impulse + u1 - v1,
+                  k.coupling * p1.normal_impulse + p2.inverse_mass * p2.normal_impulse + u2 - v2);
     push(k, p1, a, b, r1, next.first);
     push(k, p2, a, b, r2, next.second);
     p2.total_normal_impulse += p2.normal_impulse - before2;

@@ -56,21 +56,41 @@ void apply(const Pair<S>& pair, const Vec<S>& ra, const Vec<S>& rb, const Vec<S>
 }
 
 template <class S>
-void collide_at(const Pair<S>& pair, const Vec<S>& normal, ManifoldPoint<S>& point, S points) {
-  const Vec<S> ra(point.ax, point.ay), rb(point.bx, point.by);
-  const S vn = dot<S>(relative_velocity(pair, ra, rb), normal);
-  const S kn = inverse_mass_along(pair, ra, rb, normal);
-  if (vn >= S(0) || kn <= S(0)) return;
-  const S j = -(S(1) + pair.contact.restitution) * vn / (kn * points);
-  apply(pair, ra, rb, Vec<S>(normal * j));
-  point.total_normal_impulse += j;
-  if (pair.contact.friction == S(0)) return;
+struct PointImpulse {
+  Vec<S> ra, rb;
+  S normal = S(0), tangent = S(0);
+};
+
+// The normal impulses of all points are found from the velocities before any of them acts; found one after the other,
+// the second point would see a body that the first has stopped already, and nothing would bounce.
+template <class S>
+void collide_at_points(const Pair<S>& pair, const Vec<S>& normal) {
+  const int count = static_cast<int>(pair.contact.count);
   const Vec<S> tangent = cross<S>(normal, S(1));
-  const S vt = dot<S>(relative_velocity(pair, ra, rb), tangent);
-  const S bound = pair.contact.friction * j;
-  const S jt = clamp_to(-vt / (inverse_mass_along(pair, ra, rb, tangent) * points), -bound, bound);
-  apply(pair, ra, rb, Vec<S>(tangent * jt));
-  point.total_tangent_impulse += jt;
+  PointImpulse<S> impulses[2];
+  for (int i = 0; i < count; ++i) {
+    PointImpulse<S>& p = impulses[i];
+    p.ra = Vec<S>(pair.contact.points[i].ax, pair.contact.points[i].ay);
+    p.rb = Vec<S>(pair.contact.points[i].bx, pair.contact.points[i].by);
+    const S vn = dot<S>(relative_velocity(pair, p.ra, p.rb), normal);
+    const S kn = inverse_mass_along(pair, p.ra, p.rb, normal);
+    if (vn < S(0) && kn > S(0)) p.normal = -(S(1) + pair.contact.restitution) * vn / (kn * S(count));
+  }
+  for (int i = 0; i < count; ++i) apply(pair, impulses[i].ra, impulses[i].rb, Vec<S>(normal * impulses[i].normal));
+  if (pair.contact.friction > S(0)) {
+    for (int i = 0; i < count; ++i) {
+      PointImpulse<S>& p = impulses[i];
+      const S vt = dot<S>(relative_velocity(pair, p.ra, p.rb), tangent);
+      const S kt = inverse_mass_along(pair, p.ra, p.rb, tangent);
+      const S bound = pair.contact.friction * p.normal;
+      if (kt > S(0)) p.tangent = clamp_to(-vt / (kt * S(count)), -bound, bound);
+    }
+    for (int i = 0; i < count; ++i) apply(pair, impulses[i].ra, impulses[i].rb, Vec<S>(tangent * impulses[i].tangent));
+  }
+  for (int i = 0; i < count; ++i) {
+    pair.contact.points[i].total_normal_impulse += impulses[i].normal;
+    pair.contact.points[i].total_tangent_impulse += impulses[i].tangent;
+  }
 }
 
 // Takes over where the shapes touch now; impulses of the step so far stay with the points of the same index.
@@ -111,8 +131,7 @@ void collide_pair(WorldData<S>& world, const Pair<S>& pair) {
     set_points(pair, &m.points[0].p, 1, -depth, pose_a);
   }
   push_apart(pair, normal, depth);
-  const int count = static_cast<int>(pair.contact.count);
-  for (int i = 0; i < count; ++i) collide_at(pair, normal, pair.contact.points[i], S(count));
+  collide_at_points(pair, normal);
 }
 
 template <class S>

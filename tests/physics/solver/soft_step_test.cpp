@@ -1,0 +1,117 @@
+#include "physics/solver/soft_step.h"
+
+#include <cmath>
+#include <random>
+
+#include "physics/support/scenes.h"
+
+namespace urto {
+namespace {
+
+using namespace testing;
+
+WorldSettings weightless() {
+  WorldSettings settings;
+  settings.gravity = {0, 0};
+  return settings;
+}
+
+TEST(SoftStepTest, SlopeSticksAndSlidesAsCoulombSays) {
+  for (const double offset : {-0.5, +0.5}) {  // degrees from the angle of friction
+    const double angle = std::atan(0.5) + offset * 3.14159265358979323846 / 180;
+    WorldSettings settings;
+    settings.gravity = {10 * std::sin(angle), -10 * std::cos(angle)};
+    settings.sleeping = false;
+    auto world = make_world(settings);
+    BodyDef ground = floor_body(1000), def = box_body(0, 0.5);
+    ground.shapes[0].material.friction = def.shapes[0].material.friction = 0.5;
+    add(*world, ground);
+    const BodyId id = add(*world, def);
+    step_for(*world, 1);
+    const BodyState early = *world->body(id);
+    step_for(*world, 4);
+    const BodyState late = *world->body(id);
+    if (offset < 0) {
+      EXPECT_NEAR(late.position.x(), early.position.x(), 4e-5);  // creep below 1e-5 m/s
+    } else {
+      const double acceleration = 10 * (std::sin(angle) - 0.5 * std::cos(angle));
+      EXPECT_NEAR((late.velocity.x() - early.velocity.x()) / 4, acceleration, 1e-3 * acceleration);
+    }
+  }
+}
+
+// 200 boxes collide in free space: linear and angular momentum stay what they were.
+TEST(SoftStepTest, CollisionsConserveMomentum) {
+  auto settings = weightless();
+  auto world = make_world(settings);
+  const unsigned seed = 21;
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> place(-10, 10), speed(-5, 5);
+  for (int i = 0; i < 200; ++i) {
+    BodyDef def = box_body(place(random), place(random), 0.8, 0.5);
+    def.velocity = -0.3 * def.position + Vec2(speed(random), speed(random));
+    def.angular_velocity = speed(random);
+    add(*world, def);
+  }
+  const Energy before = world->energy();
+  double size = 0;  // of the momenta that could have cancelled, for the relative error
+  BodyColumns columns;
+  world->capture(columns, false);
+  for (std::size_t i = 0; i < columns.id.size(); ++i) {
+    size += 0.4 * std::hypot(columns.velocity_x[i], columns.velocity_y[i]) * std::hypot(columns.x[i], columns.y[i]);
+  }
+  step_for(*world, 20);
+  const Energy after = world->energy();
+  EXPECT_LT((after.momentum - before.momentum).norm(), 1e-4 * size);
+  EXPECT_LT(std::abs(after.angular_momentum - before.angular_momentum), 1e-3 * size);
+  EXPECT_LT(after.kinetic, before.kinetic);
+}
+
+TEST(SoftStepTest, ElasticBounceIsStraightAndKeepsMostEnergy) {
+  WorldSettings settings;
+  auto world = make_world(settings);
+  add(*world, floor_body());
+  BodyDef def = box_body(0, 5);
+  def.shapes[0].material.restitution = 1;
+  const BodyId id = add(*world, def);
+  const double before = world->energy().kinetic + world->energy().potential;
+  step_for(*world, 10);
+  EXPECT_NEAR(world->body(id)->angle, 0, 1e-5);
+  EXPECT_NEAR(world->body(id)->position.x(), 0, 1e-5);
+  const double after = world->energy().kinetic + world->energy().potential;
+  EXPECT_GT(after, 0.75 * before);  // Box2D keeps 0.71, Rapier 0.61 of it
+  EXPECT_LT(after, 1.02 * before);
+}
+
+TEST(SoftStepTest, ContactForcesOfAStackCarryItsWeight) {
+  WorldSettings settings;
+  settings.sleeping = false;
+  auto world = make_world(settings);
+  const BodyId ground = add(*world, floor_body());
+  add_stack(*world, 5);
+  step_for(*world, 20);
+  double ground_force = 0;
+  for (const ContactPoint& p : world->contacts()) {
+    EXPECT_NEAR(std::abs(p.normal.y()), 1, 1e-4);
+    if (p.body_a == ground || p.body_b == ground) ground_force += p.normal_impulse / settings.time_step;
+  }
+  EXPECT_NEAR(ground_force, 5 * 9.81, 0.5);
+}
+
+TEST(SoftStepTest, DeepOverlapPartsWithoutAnExplosion) {
+  for (const double overlap : {0.25, 0.5, 0.9}) {
+    auto world = make_world(weightless());
+    const BodyId a = add(*world, box_body(0, 0)), b = add(*world, box_body(1 - overlap, 0.01));
+    double fastest = 0;
+    for (int i = 0; i < 120; ++i) {
+      world->step();
+      fastest = std::max(fastest, (world->body(a)->velocity - world->body(b)->velocity).norm());
+    }
+    EXPECT_LE(fastest, 3.1) << overlap;
+    EXPECT_LT(world->counters().penetration_max, 0.01) << overlap;
+  }
+}
+
+}  // namespace
+}  // namespace urto
