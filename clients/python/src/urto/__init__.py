@@ -13,6 +13,7 @@
 
 from __future__ import annotations
 
+from urto import aio
 from urto._batch import Batch
 from urto._bodies import Body, BodyInfo, BodyType, Box, Circle, Polygon, Shape, Spawnable, Vector, VectorLike
 from urto._core import RoomState
@@ -125,6 +126,7 @@ __all__ = [
     "Vector",
     "VectorLike",
     "WrongBodyType",
+    "aio",
     "connect",
     "rooms",
 ]

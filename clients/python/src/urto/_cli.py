@@ -130,6 +130,7 @@ def _add_view(add: _Add) -> None:
     target.add_argument("--connect", metavar="URL", help="a viewer that runs, e.g. rerun+http://127.0.0.1:9876/proxy")
     where.add_argument("--web-port", type=int, help="port of the web viewer; default: a free one")
     where.add_argument("--save", type=Path, metavar="PATH", help="directory for room.rrd and room.png, or a .rrd file")
+    where.add_argument("--picture", type=Path, metavar="FILE.png", help="with --save, where the picture goes instead")
     where.add_argument("--screenshot", action="store_true", help="with --save, also a picture of Rerun's own viewer")
     what = view.add_argument_group("what")
     what.add_argument("--velocities", action="store_true", help="an arrow on every moving body")
@@ -265,7 +266,7 @@ def _view(room: Room, options: argparse.Namespace) -> None:
     view(
         room,
         ViewOptions(
-            save=options.save, web=options.web, web_port=options.web_port, connect=options.connect,
+            save=options.save, picture=options.picture, web=options.web, web_port=options.web_port, connect=options.connect,
             seconds=options.seconds, ticks=options.ticks, rate_hz=options.rate, velocities=options.velocities,
             contacts=options.contacts, screenshot=options.screenshot,
         ),

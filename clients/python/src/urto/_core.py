@@ -99,11 +99,11 @@ class RoomState:
 
 def parse(kind: type[M], payload: bytes) -> M:
     try:
-        message = kind()
+        message: M = kind()
         message.ParseFromString(payload)
-        return message
     except DecodeError as error:
         raise ProtocolError(f"a {kind.__name__} that cannot be read: {error}") from None
+    return message
 
 
 def frame_from_proto(snapshot: snapshot_pb2.Snapshot) -> Frame:
@@ -213,6 +213,16 @@ def _info_when_there(
         yield from sleep(DISCOVERY_POLL_S)
 
 
+def close(core: Core) -> Op[None]:
+    """Closes `core` on a thread of its own: it waits for the transport's threads."""
+
+    def work() -> Core:
+        core.close()
+        return core
+
+    yield Wait(_in_thread(work))
+
+
 def sleep(seconds: float) -> Op[None]:
     with contextlib.suppress(TimeoutError):
         yield Wait(Future(), seconds)
@@ -281,7 +291,8 @@ class Core:
         if not payloads:
             self.check_present()
             raise ConnectionLost(f"nobody answers for room {self.room!r} at {self.endpoint}")
-        return payloads[0]
+        answer: bytes = payloads[0]
+        return answer
 
     def execute(
         self, commands: list[command_pb2.Command], timeout: float | None = None
@@ -310,7 +321,8 @@ class Core:
         with self._lock:
             self._sequence += 1
             sequence = self._sequence
-        return command_pb2.CommandBatch(sequence=sequence, commands=commands).SerializeToString()
+        payload: bytes = command_pb2.CommandBatch(sequence=sequence, commands=commands).SerializeToString()
+        return payload
 
     def command(self, command: command_pb2.Command, timeout: float | None = None) -> Op[int]:
         """One command; gives the tick at which it took effect."""
@@ -319,7 +331,8 @@ class Core:
 
     def query(self, command: command_pb2.Command) -> Op[command_pb2.QueryResult]:
         reply = yield from self.execute([command])
-        return reply.results[0].query
+        result: command_pb2.QueryResult = reply.results[0].query
+        return result
 
     def send_batch(self, batch: Batch[H], answer: bool, timeout: float | None) -> Op[None]:
         commands = batch.take_commands()

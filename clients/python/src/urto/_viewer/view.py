@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 import secrets
 import time
@@ -43,6 +44,7 @@ class ViewOptions:
 
     Attributes:
         save: a directory, which gets room.rrd and room.png; or a file ending in .rrd, with a picture beside it.
+        picture: where the picture goes instead, a PNG file.
         web: serve Rerun's web viewer on loopback.
         web_port: its port; None: a free one.
         connect: URL of a Rerun viewer that already runs.
@@ -55,6 +57,7 @@ class ViewOptions:
     """
 
     save: Path | None = None
+    picture: Path | None = None
     web: bool = False
     web_port: int | None = None
     connect: str | None = None
@@ -71,6 +74,13 @@ class _Files:
     recording: Path
     picture: Path
     screenshot: Path
+
+    @classmethod
+    def of(cls, options: ViewOptions) -> _Files | None:
+        if options.save is None:
+            return None
+        files = cls.at(options.save)
+        return files if options.picture is None else dataclasses.replace(files, picture=options.picture)
 
     @classmethod
     def at(cls, save: Path) -> _Files:
@@ -93,7 +103,7 @@ class _Outputs:
     """The viewers and files that a view feeds. Ends what it started."""
 
     def __init__(self, options: ViewOptions, say: Callable[[str], None]) -> None:
-        self.files = _Files.at(options.save) if options.save is not None else None
+        self.files = _Files.of(options)
         self.process: ViewerProcess | None = None
         self.url: str | None = None
         self._streams = 0
