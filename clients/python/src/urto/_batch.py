@@ -113,17 +113,17 @@ class Batch(Generic[H]):
                     self._commands[index].spawn.body.name = body.name
         return body
 
-    def take_commands(self) -> list[command_pb2.Command]:
+    def _take_commands(self) -> list[command_pb2.Command]:
         """Closes the batch and gives its commands."""
         if not self._open:
             raise InvalidArgument("the batch was sent already")
         self._open = False
         return self._commands
 
-    def settle(self, reply: command_pb2.CommandReply) -> None:
+    def _settle(self, reply: command_pb2.CommandReply) -> None:
         """Gives the handles their ids."""
         if len(reply.results) != len(self._commands):
             raise ProtocolError(f"{len(reply.results)} results for {len(self._commands)} commands")
         for index, handle in self._spawned:
-            handle.settle(reply.results[index].id)
+            handle._settle(reply.results[index].id)
         self.tick = reply.tick

@@ -25,7 +25,7 @@ def _frame(name: str) -> command_pb2.Frame:
 
 def body_ref(body: BodyRef) -> command_pb2.BodyRef:
     if isinstance(body, Handle):
-        return body.to_proto()
+        return body._to_proto()
     if isinstance(body, str):
         return command_pb2.BodyRef(name=body)
     if isinstance(body, int) and not isinstance(body, bool) and 0 <= body < 2**64:

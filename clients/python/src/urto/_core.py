@@ -246,6 +246,7 @@ class Core:
         self.event_log = EventLog(self.signal)
         self.event_cursor = EventCursor(None)
         self.closed = False
+        self.frames_missed = 0
         self.generation = 0
         self._present = True
         self._sequence = 0
@@ -335,11 +336,11 @@ class Core:
         return result
 
     def send_batch(self, batch: Batch[H], answer: bool, timeout: float | None) -> Op[None]:
-        commands = batch.take_commands()
+        commands = batch._take_commands()
         if not commands:
             return
         if answer:
-            batch.settle((yield from self.execute(commands, timeout)))
+            batch._settle((yield from self.execute(commands, timeout)))
         else:
             self.post(commands)
 
@@ -419,7 +420,7 @@ class Core:
             count, payload = self.snapshots.latest
             if count > cursor.count:
                 frame = frame_from_proto(parse(snapshot_pb2.Snapshot, payload))
-                cursor.advance(count, frame)
+                self.frames_missed += cursor.advance(count, frame)
                 return frame
             self.check_present()
             remaining = deadline - time.monotonic()
@@ -503,13 +504,16 @@ class FrameCursor:
         self._interval_ticks = interval_ticks
         self._last: tuple[int, int] | None = None
 
-    def advance(self, count: int, frame: Frame) -> None:
+    def advance(self, count: int, frame: Frame) -> int:
+        """Takes note of a frame; how many were missed since the last."""
         self.count = count
         self.paused = frame.paused
+        missed = 0
         if self._last is not None and self._last[0] == frame.epoch:
-            intervals = (frame.tick - self._last[1]) // self._interval_ticks
-            self.missed += max(0, intervals - 1)
+            missed = max(0, (frame.tick - self._last[1]) // self._interval_ticks - 1)
+        self.missed += missed
         self._last = (frame.epoch, frame.tick)
+        return missed
 
 
 class EventCursor:

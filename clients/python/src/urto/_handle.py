@@ -25,11 +25,11 @@ class Handle:
             raise InvalidArgument("the body has no id before its batch is sent")
         return self._id
 
-    def settle(self, body_id: int) -> None:
+    def _settle(self, body_id: int) -> None:
         """Gives the handle its id when the answer to its batch is there."""
         self._id = body_id
 
-    def to_proto(self) -> command_pb2.BodyRef:
+    def _to_proto(self) -> command_pb2.BodyRef:
         return command_pb2.BodyRef(id=self._id) if self._id else command_pb2.BodyRef(name=self.name)
 
     def __eq__(self, other: object) -> bool:

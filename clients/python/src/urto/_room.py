@@ -129,7 +129,6 @@ class Room:
 
     def __init__(self, core: Core) -> None:
         self._core = core
-        self._frame_cursors: list[FrameCursor] = []
 
     def __enter__(self) -> Room:
         return self
@@ -256,13 +255,12 @@ class Room:
         """
         cursor = FrameCursor(self._core.snapshots.latest[0], _core.snapshot_interval_ticks(self._core.first_info))
         self._core.subscribe_to_snapshots()
-        self._frame_cursors.append(cursor)
         return Frames(self._core, cursor, timeout)
 
     @property
     def frames_missed(self) -> int:
         """Frames that the iterators of `frames` have skipped so far, by their ticks and the room's snapshot rate."""
-        return sum(cursor.missed for cursor in self._frame_cursors)
+        return self._core.frames_missed
 
     def events(self, *, since: int | None = None, timeout: float = math.inf) -> Events:
         """Iterates over events in order, without gaps; what was lost on the way is asked of the room again.

@@ -115,7 +115,6 @@ class Room:
 
     def __init__(self, core: Core) -> None:
         self._core = core
-        self._frame_cursors: list[FrameCursor] = []
 
     async def __aenter__(self) -> Room:
         return self
@@ -215,13 +214,12 @@ class Room:
         """Iterates over live frames, always the newest."""
         cursor = FrameCursor(self._core.snapshots.latest[0], _core.snapshot_interval_ticks(self._core.first_info))
         self._core.subscribe_to_snapshots()
-        self._frame_cursors.append(cursor)
         return Frames(self._core, cursor, timeout)
 
     @property
     def frames_missed(self) -> int:
         """Frames that the iterators of `frames` have skipped so far."""
-        return sum(cursor.missed for cursor in self._frame_cursors)
+        return self._core.frames_missed
 
     def events(self, *, since: int | None = None, timeout: float = math.inf) -> Events:
         """Iterates over events in order, without gaps."""

@@ -160,6 +160,8 @@ class _View:
 
     def show(self, frame: Frame) -> None:
         """Logs a live frame, after asking for the bodies if they are not the known ones any more."""
+        if self.frame is not None and (frame.epoch, frame.tick) < (self.frame.epoch, self.frame.tick):
+            return  # published before the state that was asked for
         same = frame.epoch == self._epoch and frame.layout == self._layout and self.shapes.poses.update(frame)
         if not same:
             self._take_state(self._room.state())
