@@ -15,8 +15,8 @@ A scene file is text, one item a line:
     revolute A B AX AY BX BY MOTOR_SPEED MOTOR_TORQUE   A, B: bodies by number, from 0; torque 0: no motor
     sway BODY AMPLITUDE RATE                            before each step its velocity leads to x = AMPLITUDE sin(RATE t)
 
-They are the scenes of Box2D's own benchmark (shared/benchmarks.c of its repository, MIT licence), rebuilt here from their
-measures, with two changes that apply to every engine alike: static segments under pyramids are thin boxes, and static
+They are the scenes of Box2D's own benchmark (shared/benchmarks.c of its repository, MIT licence), rebuilt here from
+their measures, with two changes that apply to every engine alike: static segments under pyramids are thin boxes, and static
 bodies of many shapes are many bodies.
 """
 
@@ -38,6 +38,7 @@ class Scene:
     """Collects the lines of a scene file."""
 
     def __init__(self, name: str, steps: int, gravity: Point = GRAVITY, sleep: bool = True) -> None:
+        self.name = name
         self._head = ["scene", name, steps, *gravity, int(sleep)]
         self._needs: set[str] = set()
         self._lines: list[str] = []
@@ -71,10 +72,14 @@ class Scene:
     ) -> None:
         self._add("box", *half, *center, density, friction, restitution)
 
-    def circle(self, radius: float, *, density: float = 1.0, friction: float = FRICTION, restitution: float = 0.0) -> None:
+    def circle(
+        self, radius: float, *, density: float = 1.0, friction: float = FRICTION, restitution: float = 0.0
+    ) -> None:
         self._add("circle", radius, 0.0, 0.0, density, friction, restitution)
 
-    def capsule(self, a: Point, b: Point, radius: float, *, density: float, friction: float, restitution: float) -> None:
+    def capsule(
+        self, a: Point, b: Point, radius: float, *, density: float, friction: float, restitution: float
+    ) -> None:
         self._needs.add("capsules")
         self._add("capsule", *a, *b, radius, density, friction, restitution)
 
@@ -83,7 +88,8 @@ class Scene:
         self._add("rounded_box", *half, rounding, 1.0, friction, 0.0)
 
     def polygon(self, points: Sequence[Point], *, density: float = 1.0, friction: float = FRICTION) -> None:
-        self._add("polygon", density, friction, 0.0, *(value for point in _counter_clockwise(points) for value in point))
+        corners = _counter_clockwise(points)
+        self._add("polygon", density, friction, 0.0, *(value for corner in corners for value in corner))
 
     def loop(self, points: Sequence[Point], *, friction: float) -> None:
         self._needs.add("segments")
@@ -98,6 +104,12 @@ class Scene:
 
     def sway(self, body: int, amplitude: float, rate: float) -> None:
         self._add("sway", body, amplitude, rate)
+
+    def write(self, folder: Path) -> Path:
+        folder.mkdir(parents=True, exist_ok=True)
+        path = folder / f"{self.name}.txt"
+        path.write_text(self.text(), encoding="utf-8")
+        return path
 
     def text(self) -> str:
         head = [" ".join(_text(word) for word in self._head)]
@@ -277,12 +289,7 @@ SCENES: dict[str, Callable[[], Scene]] = {
 
 
 def write_scenes(folder: Path, names: Sequence[str]) -> dict[str, Path]:
-    folder.mkdir(parents=True, exist_ok=True)
-    paths = {}
-    for name in names:
-        paths[name] = folder / f"{name}.txt"
-        paths[name].write_text(SCENES[name]().text(), encoding="utf-8")
-    return paths
+    return {name: SCENES[name]().write(folder) for name in names}
 
 
 if __name__ == "__main__":

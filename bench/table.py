@@ -20,7 +20,7 @@ def _cells(result: Result) -> tuple[list[str], list[list[str]]]:
     head = ["scene", "bodies", "touching", *engines, *(f"urto / {peer}" for peer in peers)]
     lines = []
     for scene, rows in result["scenes"].items():
-        ran = next((row for row in rows.values() if "ms" in row), {})
+        ran: dict[str, Any] = next((row for row in rows.values() if "ms" in row), {})
         line = [scene, str(ran.get("bodies", "")), str(rows.get("urto", {}).get("touching", ran.get("touching", "")))]
         for engine in engines:
             row = rows[engine]
@@ -40,10 +40,46 @@ def _caption(result: Result) -> str:
 
 def text_table(result: Result) -> str:
     head, lines = _cells(result)
+    return _caption(result) + "\n" + _aligned(head, lines)
+
+
+def _aligned(head: list[str], lines: list[list[str]]) -> str:
     widths = [max(len(row[column]) for row in [head, *lines]) for column in range(len(head))]
     rows = ["  ".join(cell.rjust(width) if i else cell.ljust(width) for i, (cell, width) in enumerate(zip(row, widths)))
             for row in [head, *lines]]
-    return "\n".join([_caption(result), *rows])
+    return "\n".join(rows)
+
+
+def _pipes(head: list[str], lines: list[list[str]]) -> list[str]:
+    return ["| " + " | ".join(row) + " |" for row in [head, ["---"] + ["---:"] * (len(head) - 1), *lines]]
+
+
+def _accuracy_cells(result: Result) -> tuple[list[str], list[list[str]]]:
+    engines: list[str] = []
+    for by_engine in result["cases"].values():
+        engines += [name for name in by_engine if name not in engines]
+    lines = []
+    for case, by_engine in result["cases"].items():
+        figures: list[str] = []
+        for row in by_engine.values():
+            figures += [name for name in row if name not in figures] if isinstance(row, dict) else []
+        for figure in figures:
+            line = [f"{case}: {figure}"]
+            for engine in engines:
+                row = by_engine[engine]
+                line.append(f"{row[figure]:.4g}" if isinstance(row, dict) else row.split(":")[0])
+            lines.append(line)
+    return ["case", *engines], lines
+
+
+def accuracy_table(result: Result) -> str:
+    return _aligned(*_accuracy_cells(result))
+
+
+def accuracy_markdown(result: Result) -> str:
+    head, lines = _accuracy_cells(result)
+    title = "Errors at each engine's defaults, float, time step 1/60 s, 4 sub-steps (bench/accuracy.py has the cases)."
+    return "\n".join([title, "", *_pipes(head, lines), "", f"{result['started']}; commit {result['machine']['commit']}."]) + "\n"
 
 
 def _versions(result: Result) -> str:
@@ -58,7 +94,7 @@ def _versions(result: Result) -> str:
 def markdown(result: Result) -> str:
     head, lines = _cells(result)
     machine = result["machine"]
-    table = ["| " + " | ".join(row) + " |" for row in [head, ["---"] + ["---:"] * (len(head) - 1), *lines]]
+    table = _pipes(head, lines)
     phases = ["", "Where Urto's time goes, mean ms a step:", ""]
     for scene, rows in result["scenes"].items():
         shares = rows.get("urto", {}).get("phases_ms")

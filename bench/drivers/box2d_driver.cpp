@@ -157,6 +157,10 @@ void run(const Arguments& arguments) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const b2Transform at = b2Body_GetTransform(bodies[i]);
     for (const float value : {at.p.x, at.p.y, at.q.c, at.q.s}) hash.add(value);
+    if (arguments.states) {
+      const b2Vec2 v = b2Body_GetLinearVelocity(bodies[i]);
+      report.states.push_back({at.p.x, at.p.y, b2Rot_GetAngle(at.q), v.x, v.y, b2Body_GetAngularVelocity(bodies[i])});
+    }
     report.bodies += scene.bodies[i].kind == BodyKind::kDynamic ? 1 : 0;
   }
   report.hash = hash.text();

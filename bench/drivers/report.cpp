@@ -30,7 +30,13 @@ void Report::print() const {
   for (std::size_t i = 0; i < phases_ms.size(); ++i) {
     std::printf("%s\"%s\":%.6f", i == 0 ? "" : ",", phases_ms[i].first.c_str(), phases_ms[i].second);
   }
-  std::printf("}}\n");
+  std::printf("}");
+  for (std::size_t body = 0; body < states.size(); ++body) {
+    std::printf("%s", body == 0 ? ",\"states\":[" : ",");
+    for (std::size_t i = 0; i < states[body].size(); ++i) std::printf("%c%.9g", i == 0 ? '[' : ',', states[body][i]);
+    std::printf("%s", body + 1 == states.size() ? "]]" : "]");
+  }
+  std::printf("}\n");
 }
 
 void Hash::add(float value) {
@@ -55,12 +61,14 @@ Arguments parse_arguments(int count, char** values) {
       arguments.threads = std::atoi(values[++i]);
     } else if (word == "--steps" && i + 1 < count) {
       arguments.steps = std::atoi(values[++i]);
+    } else if (word == "--states") {
+      arguments.states = true;
     } else {
       arguments.scene_path = word;
     }
   }
   if (arguments.scene_path.empty() || arguments.threads < 1) {
-    std::fprintf(stderr, "usage: %s SCENE_FILE [--threads N] [--steps N]\n", values[0]);
+    std::fprintf(stderr, "usage: %s SCENE_FILE [--threads N] [--steps N] [--states]\n", values[0]);
     std::exit(2);
   }
   return arguments;

@@ -2,6 +2,7 @@
 
 // What a driver tells of one run: one line of JSON on standard output.
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <string>
@@ -20,6 +21,8 @@ struct Report {
   std::uint64_t touching = 0;                             // of shapes, at the end
   std::string hash;                                       // of the final state, hexadecimal
   std::vector<std::pair<std::string, double>> phases_ms;  // mean of a step
+  // With --states: x, y, angle, velocity x and y, spin of every body at the end, in the order of the scene.
+  std::vector<std::array<double, 6>> states;
 
   void print() const;
 };
@@ -49,11 +52,12 @@ class Hash {
 
 std::string hexadecimal(std::uint64_t value);
 
-// The arguments of every driver: SCENE_FILE [--threads N] [--steps N].
+// The arguments of every driver: SCENE_FILE [--threads N] [--steps N] [--states].
 struct Arguments {
   std::string scene_path;
   int threads = 1;
   int steps = 0;  // 0: as the scene says
+  bool states = false;
 };
 Arguments parse_arguments(int count, char** values);
 

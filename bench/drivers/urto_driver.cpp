@@ -111,6 +111,11 @@ void run(const Arguments& arguments) {
   for (std::size_t phase = 0; phase < kPhases; ++phase) {
     report.phases_ms.emplace_back(urto::phase_name(static_cast<urto::Phase>(phase)), phase_sums[phase] / steps);
   }
+  for (std::size_t i = 0; arguments.states && i < bodies.size(); ++i) {
+    const urto::BodyState at = expect(world->body(bodies[i]));
+    report.states.push_back(
+        {at.position.x(), at.position.y(), at.angle, at.velocity.x(), at.velocity.y(), at.angular_velocity});
+  }
   report.print();
 }
 

@@ -94,23 +94,25 @@ struct Arguments {
     scene_path: String,
     threads: usize,
     steps: Option<usize>,
+    states: bool,
     engine: String,
 }
 
 fn parse_arguments() -> Result<Arguments, String> {
-    let mut arguments = Arguments { scene_path: String::new(), threads: 1, steps: None, engine: "rapier".into() };
+    let mut arguments = Arguments { scene_path: String::new(), threads: 1, steps: None, states: false, engine: "rapier".into() };
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
         let mut value = || words.next().ok_or(format!("{word} needs a value"));
         match word.as_str() {
             "--threads" => arguments.threads = value()?.parse().map_err(|error| format!("{error}"))?,
             "--steps" => arguments.steps = Some(value()?.parse().map_err(|error| format!("{error}"))?),
+            "--states" => arguments.states = true,
             "--engine" => arguments.engine = value()?,
             _ => arguments.scene_path = word,
         }
     }
     if arguments.scene_path.is_empty() {
-        return Err("usage: peers SCENE_FILE [--threads N] [--steps N] [--engine NAME]".into());
+        return Err("usage: peers SCENE_FILE [--threads N] [--steps N] [--states] [--engine NAME]".into());
     }
     Ok(arguments)
 }
@@ -140,6 +142,16 @@ fn hash_of(world: &PhysicsWorld, handles: &[RigidBodyHandle]) -> u64 {
     hash
 }
 
+/// x, y, angle, velocity x and y, spin of every body.
+fn states_of(world: &PhysicsWorld, handles: &[RigidBodyHandle]) -> String {
+    let state = |handle: &RigidBodyHandle| {
+        let body = &world.bodies[*handle];
+        let (at, v) = (body.translation(), body.linvel());
+        format!("[{},{},{},{},{},{}]", at.x, at.y, body.rotation().angle(), v.x, v.y, body.angvel())
+    };
+    format!(",\"states\":[{}]", handles.iter().map(state).collect::<Vec<_>>().join(","))
+}
+
 fn print_report(arguments: &Arguments, scene: &Scene, world: &PhysicsWorld, handles: &[RigidBodyHandle], timing: &Timing) {
     let ms = &timing.step_ms;
     let mut sorted = ms.clone();
@@ -147,11 +159,12 @@ fn print_report(arguments: &Arguments, scene: &Scene, world: &PhysicsWorld, hand
     let mean = ms.iter().sum::<f64>() / ms.len() as f64;
     let bodies = scene.bodies.iter().filter(|body| body.kind == BodyKind::Dynamic).count();
     let pairs = world.narrow_phase.contact_pairs().count();
+    let states = if arguments.states { states_of(world, handles) } else { String::new() };
     let touching = world.narrow_phase.contact_pairs().filter(|pair| pair.has_any_active_contact()).count();
     println!(
         "{{\"engine\":\"{}\",\"version\":\"{}\",\"scene\":\"{}\",\"threads\":{},\"steps\":{},\"cpu_ms\":{:.6},\"mean_ms\":{:.6},\
          \"median_ms\":{:.6},\"min_ms\":{:.6},\"max_ms\":{:.6},\"bodies\":{bodies},\"pairs\":{pairs},\
-         \"touching\":{touching},\"hash\":\"{:016x}\",\"phases_ms\":{{}}}}",
+         \"touching\":{touching},\"hash\":\"{:016x}\",\"phases_ms\":{{}}{states}}}",
         arguments.engine,
         rapier2d::VERSION,
         scene.name,
