@@ -33,8 +33,10 @@ tl::expected<std::unique_ptr<Room>, std::string> load_room(const std::string& sc
   const auto scene = codec::SceneText::parse(*text, scene_file);
   if (!scene) {
     std::string problems;
-    for (const codec::SceneProblem& problem : scene.error())
-      problems += (problems.empty() ? "" : "\n") + problem.text();
+    for (const codec::SceneProblem& problem : scene.error()) {
+      if (!problems.empty()) problems += '\n';
+      problems += problem.text();
+    }
     return tl::unexpected<std::string>(problems);
   }
   auto room = Room::create(std::move(settings), scene->scene(), make_world);
