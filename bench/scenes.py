@@ -16,8 +16,8 @@ A scene file is text, one item a line:
     sway BODY AMPLITUDE RATE                            before each step its velocity leads to x = AMPLITUDE sin(RATE t)
 
 They are the scenes of Box2D's own benchmark (shared/benchmarks.c of its repository, MIT licence), rebuilt here from
-their measures, with two changes that apply to every engine alike: static segments under pyramids are thin boxes, and static
-bodies of many shapes are many bodies.
+their measures, with two changes that apply to every engine alike: static segments under pyramids are thin boxes, and
+static bodies of many shapes are many bodies.
 """
 
 from __future__ import annotations

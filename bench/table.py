@@ -79,7 +79,8 @@ def accuracy_table(result: Result) -> str:
 def accuracy_markdown(result: Result) -> str:
     head, lines = _accuracy_cells(result)
     title = "Errors at each engine's defaults, float, time step 1/60 s, 4 sub-steps (bench/accuracy.py has the cases)."
-    return "\n".join([title, "", *_pipes(head, lines), "", f"{result['started']}; commit {result['machine']['commit']}."]) + "\n"
+    about = f"{result['started']}; commit {result['machine']['commit']}."
+    return "\n".join([title, "", *_pipes(head, lines), "", about]) + "\n"
 
 
 def _versions(result: Result) -> str:
