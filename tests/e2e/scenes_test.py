@@ -5,17 +5,13 @@ The rooms are paused and stepped, so that no result depends on how fast a machin
 
 import math
 import re
-import socket
 import subprocess
-from contextlib import contextmanager
-from pathlib import Path
 
 import numpy as np
 import pytest
 import urto
+from conftest import ROOT, URTOD
 
-ROOT = Path(__file__).resolve().parents[2]
-URTOD = ROOT / "build/release/bin/urtod"
 SCENES = sorted((ROOT / "tests/scenes").glob("*.txtpb"))
 TIMEOUT_SECONDS = 120
 
@@ -25,23 +21,14 @@ def check(scene):
     return subprocess.run(command, capture_output=True, text=True, check=False, timeout=TIMEOUT_SECONDS)
 
 
-@contextmanager
-def room_of(scene):
-    """A paused room with the scene on a free port of loopback."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        endpoint = f"tcp/127.0.0.1:{probe.getsockname()[1]}"
-    command = [URTOD, "--scene", ROOT / f"tests/scenes/{scene}.txtpb", "--listen", endpoint, "--paused"]
-    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as server:
-        try:
-            for line in server.stderr:  # until it says that the room is open
-                if "open to" in line:
-                    break
-            with urto.connect(endpoint, timeout=TIMEOUT_SECONDS) as room:
-                yield room
-        finally:
-            server.terminate()
-            server.stderr.read()
+@pytest.fixture(name="room_of")
+def fixture_room_of(start):
+    """room_of(scene) is a paused room with that scene."""
+
+    def open_room(scene):
+        return urto.connect(start(scene, "--paused").endpoint, timeout=TIMEOUT_SECONDS)
+
+    return open_room
 
 
 def bodies_of(room):
@@ -67,7 +54,7 @@ def test_urtod_refuses_what_is_not_a_scene(tmp_path):
 
 
 @pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
-def test_every_body_stays_finite_and_near_for_ten_seconds(path):
+def test_every_body_stays_finite_and_near_for_ten_seconds(room_of, path):
     text = path.read_text(encoding="utf-8")
     lower_x, lower_y, upper_x, upper_y = map(
         float,
@@ -87,7 +74,7 @@ def test_every_body_stays_finite_and_near_for_ten_seconds(path):
 
 
 @pytest.mark.parametrize("scene", ["pyramid", "stack_10", "stack_20", "arch"])
-def test_what_is_built_stands(scene):
+def test_what_is_built_stands(room_of, scene):
     with room_of(scene) as room:
         before = room.frame().position.copy()
         after = room.step(1200)
@@ -98,13 +85,13 @@ def test_what_is_built_stands(scene):
 
 
 @pytest.mark.parametrize("scene", ["pyramid", "stack_20", "pile"])
-def test_what_rests_falls_asleep(scene):
+def test_what_rests_falls_asleep(room_of, scene):
     with room_of(scene) as room:
         frame = room.step(1800)
     assert not frame.awake.any()
 
 
-def test_on_the_slope_three_slide_and_three_stay():
+def test_on_the_slope_three_slide_and_three_stay(room_of):
     with room_of("slope") as room:
         names = bodies_of(room)
         before = room.frame()
@@ -118,7 +105,7 @@ def test_on_the_slope_three_slide_and_three_stay():
     assert all(metres < 0.02 for name, metres in way.items() if name > "friction_035"), way
 
 
-def test_the_last_ball_of_the_cradle_takes_the_speed_of_the_first():
+def test_the_last_ball_of_the_cradle_takes_the_speed_of_the_first(room_of):
     with room_of("cradle") as room:
         names = bodies_of(room)
         frame = room.step(66)  # the first arrives after 3 m at 3 m/s: 60 ticks
@@ -126,7 +113,7 @@ def test_the_last_ball_of_the_cradle_takes_the_speed_of_the_first():
     assert speeds == pytest.approx([0, 0, 0, 0, 3], abs=0.03)
 
 
-def test_every_domino_falls():
+def test_every_domino_falls(room_of):
     with room_of("dominoes") as room:
         names = bodies_of(room)
         frame = room.step(900)
@@ -134,7 +121,7 @@ def test_every_domino_falls():
     assert standing == []
 
 
-def test_a_planet_comes_round():
+def test_a_planet_comes_round(room_of):
     """Kepler's third law: the period of a circle of radius a around an attractor of strength k is 2π √(a³/k)."""
     with room_of("orbit") as room:
         names = bodies_of(room)
@@ -145,7 +132,7 @@ def test_a_planet_comes_round():
     assert math.dist(before, after) < 0.5 / 60 * math.sqrt(60 / 4) + 1e-3
 
 
-def test_integrators_differ_as_they_should():
+def test_integrators_differ_as_they_should(room_of):
     energies = {}
     for scene in ("integrators", "integrators_explicit_euler", "integrators_verlet", "integrators_runge_kutta_4"):
         with room_of(scene) as room:
