@@ -78,7 +78,7 @@ def test_what_is_built_stands(room_of, scene):
     with room_of(scene) as room:
         before = room.frame().position.copy()
         after = room.step(1200)
-    # Aside by less than a tenth of a block; down by what the contacts of the blocks below give way, each by millimetres.
+    # Aside by less than a tenth of a block; down by what the contacts below give way, millimetres each.
     moved = after.position - before
     assert np.abs(moved[:, 0]).max() < 0.1
     assert (np.abs(moved[:, 1]) < 0.01 + 0.01 * np.maximum(before[:, 1], 0)).all()

@@ -458,8 +458,8 @@ def cradle() -> Message:
                 color=CORAL if first else gradient((SAND, TEAL), (index - 1) / 3),
             )
         )
-    # The blows follow one another within a hundredth of a second. The thesis's solver deals with one contact at a time, at
-    # each of its sub-iterations, and so with one blow after the other; the default solver shares them out.
+    # The blows follow one another within a hundredth of a second. The thesis's solver deals with one contact at a time,
+    # at each of its sub-iterations, and so with one blow after the other; the default solver shares them out.
     world: Message = {
         "precision": Enum("PRECISION_DOUBLE"),
         "solver": Enum("SOLVER_THESIS"),

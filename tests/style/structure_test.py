@@ -125,7 +125,8 @@ def test_a_source_file_is_short_enough_to_read(path):
     lines = path.read_text(encoding="utf-8").splitlines()
     assert len(lines) <= LINES_MAX
     if path.suffix not in (".sh", ".cmake"):
-        assert [number for number, line in enumerate(lines, 1) if len(line) > COLUMNS_MAX] == []
+        columns = [len(re.sub(r"  # (?:type|fmt|noqa).*", "", line)) for line in lines]
+        assert [number for number, width in enumerate(columns, 1) if width > COLUMNS_MAX] == []
 
 
 @pytest.mark.parametrize(
