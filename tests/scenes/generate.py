@@ -321,17 +321,17 @@ def cars() -> Message:
     bodies = [ground(90, friction=0.5)]
     bodies += [
         car("red", -22, 16, CORAL),
-        car("blue", 10, -12, SEA),
+        car("blue", 8, -12, SEA),
         car("yellow", -33, 20, SAND),
-        car("green", 23, -10, OLIVE),
+        car("green", 32, -17, OLIVE),
     ]
-    # A wall of crates behind the crash, and a ramp that throws the last car over it.
+    # A wall of crates that the last car goes through, and a ramp that throws the first ones into the air.
     for row in range(5):
         for column in range(2):
             bodies.append(
                 body(
                     box(0.9, 0.9, density=60.0),
-                    30 + column * 0.95,
+                    14 + column * 0.95,
                     0.45 + row * 0.9,
                     name=f"crate_{row + 1}_{column + 1}",
                     tags=("crate",),
@@ -345,7 +345,7 @@ def cars() -> Message:
     description = (
         "Four cars, each a concave chassis and two smooth wheels in one body, meet at a ramp and a wall of crates."
     )
-    return scene("cars", description, (-36, -2, 36, 18), bodies)
+    return scene("cars", description, (-35, -2, 35, 14), bodies)
 
 
 def regular(sides: int, radius: float) -> list[tuple[float, float]]:
