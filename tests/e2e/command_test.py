@@ -76,23 +76,19 @@ def test_a_view_is_saved_as_a_recording_and_a_picture(start: Start, tmp_path: Pa
     assert max(background) < 60
 
 
-def test_ctrl_c_ends_a_view_in_order(start: Start, tmp_path: Path) -> None:
+@pytest.mark.parametrize("by", [signal.SIGINT, signal.SIGTERM])
+def test_ctrl_c_ends_a_view_in_order(start: Start, tmp_path: Path, by: signal.Signals) -> None:
     pytest.importorskip("rerun")
     urtod = start("pyramid")
-    with urto.connect(urtod.endpoint, user="witness", timeout=TIMEOUT_S) as room:
-        view = subprocess.Popen(
-            [URTO, "view", "--endpoint", urtod.endpoint, "--user", "viewer", "--save", tmp_path, "--seconds", "3600"],
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-        )  # fmt: skip
-        for event in room.events(timeout=TIMEOUT_S):
-            if isinstance(event, urto.MemberJoined) and event.user == "viewer":
-                break
-        recording = tmp_path / "room.rrd"
-        for _ in room.frames():
-            if recording.exists() and recording.stat().st_size > 0:
-                break
-        view.send_signal(signal.SIGINT)
-        output, _ = view.communicate(timeout=TIMEOUT_S)
+    view = subprocess.Popen(
+        [URTO, "view", "--endpoint", urtod.endpoint, "--save", tmp_path, "--seconds", "3600"],
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+    )  # fmt: skip
+    assert view.stdout is not None
+    recording = tmp_path / "room.rrd"
+    assert view.stdout.readline() == f"recording to {recording}\n"
+    view.send_signal(by)
+    output, _ = view.communicate(timeout=TIMEOUT_S)
     assert view.returncode == 0, output
     assert "picture" in output
     rerun = Path(sys.executable).with_name("rerun")
@@ -105,7 +101,10 @@ def test_the_web_viewer_is_served_on_loopback_until_the_view_ends(start: Start) 
 
     urtod = start("pyramid")
     view = subprocess.Popen(
-        [URTO, "view", "--endpoint", urtod.endpoint, "--web"], stdout=subprocess.PIPE, text=True, stderr=subprocess.STDOUT
+        [URTO, "view", "--endpoint", urtod.endpoint, "--web"],
+        stdout=subprocess.PIPE,
+        text=True,
+        stderr=subprocess.STDOUT,
     )
     assert view.stdout is not None
     line = view.stdout.readline()

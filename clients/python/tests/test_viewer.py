@@ -76,14 +76,15 @@ def test_a_saved_view_holds_what_the_room_did(room: urto.Room, fake: FakeRoom, t
     assert len(_values(recording, "/plots/members/count", "Scalars:scalars")) > 1
     assert any("sim_time" in batch.schema.names for entity, batch in _chunks(recording) if entity.startswith("/plots"))
     assert any("MemberJoined" in text[0] for _, text in _values(recording, "/events", "TextLog:text"))
-    assert said == [said[0]]
-    assert "room.png" in said[0]
+    assert [line.split()[0] for line in said] == ["recording", said[1].split()[0]]
+    assert "room.png" in said[1]
 
 
 def test_a_reset_begins_a_recording_of_its_own(room: urto.Room, tmp_path: Path) -> None:
     _furnish(room)
     options = ViewOptions(save=tmp_path)
     shown = _View(room, options, _Outputs(options, print))
+    shown.begin()
     shown.show(room.step(5))
     room.reset()
     room.spawn(urto.Box(width=3, height=3))
@@ -94,6 +95,25 @@ def test_a_reset_begins_a_recording_of_its_own(room: urto.Room, tmp_path: Path) 
     assert [tick for tick, _ in first if tick > 0] == [5]
     assert second[0][0] == 2
     assert np.allclose(second[0][1][0][:2], [1.5, 1.5])
+
+
+def test_what_is_despawned_is_gone_from_the_next_layout(room: urto.Room, tmp_path: Path) -> None:
+    _furnish(room)
+    options = ViewOptions(save=tmp_path)
+    shown = _View(room, options, _Outputs(options, print))
+    shown.begin()
+    room.step(3)
+    for body in room.bodies():
+        if body.body.type == "dynamic":
+            room.body(body.id).despawn()
+    shown.show(room.step(2))
+    shown.end_recording()
+    for entity, column in (
+        ("boxes", "Boxes3D:half_sizes"), ("discs", "Ellipsoids3D:half_sizes"), ("polygons", "Mesh3D:vertex_positions"),
+    ):  # fmt: skip
+        counts = [(tick, len(value)) for tick, value in _values(tmp_path / "room.rrd", f"/room/bodies/{entity}", column)]
+        assert counts[0][1] > 0
+        assert counts[-1] == (5, 0), entity
 
 
 def test_the_picture_shows_bodies_where_they_are(room: urto.Room, fake: FakeRoom, tmp_path: Path) -> None:

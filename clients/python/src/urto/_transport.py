@@ -118,7 +118,7 @@ class ZenohTransport:
         except zenoh.ZError as error:
             hint = "; or the user or password is wrong (that looks the same)" if password is not None else ""
             raise ConnectionFailed(
-                f"no Urto server answers at {endpoint} within {timeout:g} s{hint}. Is urtod running there? ({error})"
+                f"no Urto server answers at {endpoint} within {timeout:g} s{hint}. Is urtod running there? ({_words(error)})"
             ) from None
 
     def query(self, selector: str, payload: bytes | None, timeout: float) -> Future[list[bytes]]:
@@ -187,7 +187,7 @@ class ZenohTransport:
         with contextlib.suppress(zenoh.ZError):
             self._session.close()  # type: ignore[no-untyped-call]
         for thread in self._pumps:
-            if thread is not threading.current_thread():
+            if thread.is_alive() and thread is not threading.current_thread():
                 thread.join(CLOSE_TIMEOUT_S)
 
     @contextlib.contextmanager
@@ -199,7 +199,12 @@ class ZenohTransport:
         except zenoh.ZError as error:
             if self._closed:
                 raise ClosedError("the room is closed") from None
-            raise ConnectionFailed(f"Zenoh: {error}") from None
+            raise ConnectionFailed(f"Zenoh: {_words(error)}") from None
+
+
+def _words(error: zenoh.ZError) -> str:
+    """What Zenoh says, without the place in its source that follows."""
+    return str(error).split(" at /")[0]
 
 
 def _settings(endpoint: str, user: str | None, password: str | None, timeout: float) -> dict[str, object]:

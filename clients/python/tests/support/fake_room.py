@@ -33,6 +33,7 @@ class FakeRoom:
         self.tick, self.epoch, self.paused, self.time_scale = 0, 1, True, 1.0
         self.bodies: dict[int, dict[str, Any]] = {}
         self.next_id = 1
+        self.layout = 1
         self.events: list[snapshot_pb2.Event] = []
         self.first_kept = 1
         self.silent: set[str] = set()  # the last parts of keys that get no answer
@@ -106,7 +107,7 @@ class FakeRoom:
 
     def snapshot(self, full: bool) -> snapshot_pb2.Snapshot:
         snapshot = snapshot_pb2.Snapshot(
-            epoch=self.epoch, tick=self.tick, sim_time=self.tick * TIME_STEP, layout=self.next_id, paused=self.paused,
+            epoch=self.epoch, tick=self.tick, sim_time=self.tick * TIME_STEP, layout=self.layout, paused=self.paused,
             full=full, state_hash=self.tick * 1000 + len(self.bodies),
         )  # fmt: skip
         snapshot.statistics.body_count = len(self.bodies)
@@ -240,6 +241,7 @@ class FakeRoom:
         elif kind == "despawn":
             body = self._find(command.despawn.body, "despawn")
             self.bodies = {body_id: each for body_id, each in self.bodies.items() if each is not body}
+            self.layout += 1
         elif kind == "impulse":
             body = self._find(command.impulse.body, "impulse")
             if body["type"] != scene_pb2.BODY_TYPE_DYNAMIC:
@@ -281,6 +283,7 @@ class FakeRoom:
             raise Refusal(command_pb2.REJECTION_CODE_DUPLICATE_NAME, "spawn.body.name", message.name)
         body_id = self.next_id
         self.next_id += 1
+        self.layout += 1
         self.bodies[body_id] = {
             "message": message, "type": message.type, "x": message.position.x, "y": message.position.y,
             "angle": message.angle, "vx": message.velocity.x, "vy": message.velocity.y,

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import signal
 import socket
 import subprocess
 import sys
@@ -115,14 +116,25 @@ class ViewerProcess:
         return self._process.poll() is None
 
     def close(self) -> None:
-        if self._process.poll() is None:
-            self._process.terminate()
-            try:
-                self._process.wait(STOP_TIMEOUT_S)
-            except subprocess.TimeoutExpired:
-                self._process.kill()
-                self._process.wait()
+        # The program that pip installs starts the real one, so the whole group is ended, also if its leader is gone.
+        self._signal(signal.SIGTERM)
+        deadline = time.monotonic() + STOP_TIMEOUT_S
+        while self._signal(0):
+            if time.monotonic() > deadline:
+                self._signal(signal.SIGKILL)
+                break
+            self._process.poll()  # takes note of its end, which keeps the group alive until then
+            time.sleep(0.01)
+        self._process.wait()
         self._log.close()
+
+    def _signal(self, number: int) -> bool:
+        """Sends a signal to the group (0: none); False if nobody is left in it."""
+        try:
+            os.killpg(self._process.pid, number)
+        except ProcessLookupError:
+            return False
+        return True
 
 
 def open_window() -> ViewerProcess:

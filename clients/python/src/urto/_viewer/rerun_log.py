@@ -201,30 +201,29 @@ class RerunLog:
         self, path: str, layer: Layer, ids: npt.NDArray[np.uint64], fill: rr.components.FillMode
     ) -> None:
         log = self._stream.log
+
+        def log_ids(entity: str, rows: npt.NDArray[np.int64]) -> None:
+            if len(rows):
+                log(entity, rr.AnyValues(body_id=ids[rows]))
+
         boxes, discs, polygons = layer.boxes, layer.discs, layer.polygons
         half = np.column_stack([boxes.half_size, np.full(len(boxes.rows), DEPTH / 2)])
-        log(
-            f"{path}/boxes",
-            rr.Boxes3D.from_fields(half_sizes=half, colors=boxes.color, fill_mode=fill),
-            rr.AnyValues(body_id=ids[boxes.rows]),
-        )
+        log(f"{path}/boxes", rr.Boxes3D.from_fields(half_sizes=half, colors=boxes.color, fill_mode=fill))
+        log_ids(f"{path}/boxes", boxes.rows)
         # A flat ellipsoid is rounder than Rerun's cylinder.
         flat = np.column_stack([discs.radius, discs.radius, np.full(len(discs.rows), DEPTH / 2)])
         solid = rr.components.FillMode.Solid
         disc_fill = fill if fill == rr.components.FillMode.MajorWireframe else solid
-        log(
-            f"{path}/discs",
-            rr.Ellipsoids3D.from_fields(half_sizes=flat, colors=discs.color, fill_mode=disc_fill),
-            rr.AnyValues(body_id=ids[discs.rows]),
-        )
+        log(f"{path}/discs", rr.Ellipsoids3D.from_fields(half_sizes=flat, colors=discs.color, fill_mode=disc_fill))
+        log_ids(f"{path}/discs", discs.rows)
         spoke = np.column_stack([discs.radius * 0.46, discs.radius * SPOKE_WIDTH / 2, np.full(len(discs.rows), DEPTH)])
         spoke_color = [darker((r, g, b), 0.35) for r, g, b in discs.color.tolist()]
         log(f"{path}/spokes", rr.Boxes3D.from_fields(half_sizes=spoke, colors=spoke_color, fill_mode=solid))
-        log(
-            f"{path}/polygons",
-            rr.Mesh3D.from_fields(triangle_indices=polygons.triangle, vertex_colors=polygons.color),
-            rr.AnyValues(body_id=ids[polygons.rows]),
-        )
+        mesh = rr.Mesh3D.from_fields(triangle_indices=polygons.triangle, vertex_colors=polygons.color)
+        if len(polygons.rows) == 0:  # without vertices nothing of an earlier layout is left
+            mesh = rr.Mesh3D.from_fields(vertex_positions=[], triangle_indices=[], vertex_colors=[])
+        log(f"{path}/polygons", mesh)
+        log_ids(f"{path}/polygons", polygons.rows)
 
     def _log_poses(self, shapes: ShapeSet, layers: tuple[str, ...]) -> None:
         poses = shapes.poses

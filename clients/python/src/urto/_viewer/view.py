@@ -156,7 +156,10 @@ class _View:
         self.frame: Frame | None = None
         self._log: RerunLog
         self.shapes: ShapeSet
-        self._take_state(room.state())
+
+    def begin(self) -> None:
+        """Shows the room as it is now."""
+        self._take_state(self._room.state())
 
     def show(self, frame: Frame) -> None:
         """Logs a live frame, after asking for the bodies if they are not the known ones any more."""
@@ -247,15 +250,18 @@ def view(room: Room, options: ViewOptions, say: Callable[[str], None]) -> None:
     try:
         shown = _View(room, options, outputs)
         try:
+            shown.begin()
+            if outputs.files is not None:
+                say(f"recording to {outputs.files.recording}")
             _follow(room, options, outputs, shown)
         except KeyboardInterrupt:
             pass
         finally:
             shown.end_recording()
-            if outputs.files is not None:
+            if outputs.files is not None and shown.frame is not None:
                 shown.draw(outputs.files.picture)
                 say(f"{shown.frames_logged} frames in {outputs.files.recording}, picture {outputs.files.picture}")
-        if outputs.files is not None and options.screenshot:
+        if outputs.files is not None and shown.frame is not None and options.screenshot:
             take_screenshot(outputs.files.recording, outputs.files.screenshot)
             say(f"picture of the viewer {outputs.files.screenshot}")
     finally:
