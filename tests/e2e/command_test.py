@@ -95,6 +95,24 @@ def test_ctrl_c_ends_a_view_in_order(start: Start, tmp_path: Path, by: signal.Si
     subprocess.run([rerun, "rrd", "verify", recording], check=True, capture_output=True)
 
 
+def test_a_view_of_a_room_that_ends_is_saved_all_the_same(start: Start, tmp_path: Path) -> None:
+    pytest.importorskip("rerun")
+    urtod = start("pyramid")
+    view = subprocess.Popen(
+        [URTO, "view", "--endpoint", urtod.endpoint, "--save", tmp_path, "--seconds", "3600"],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    assert view.stdout is not None
+    assert view.stdout.readline().startswith("recording to ")
+    urtod.stop()
+    output, errors = view.communicate(timeout=TIMEOUT_S)
+    assert (view.returncode, errors.count("\n")) == (3, 1), errors
+    assert "is gone" in errors
+    assert "picture" in output
+    rerun = Path(sys.executable).with_name("rerun")
+    subprocess.run([rerun, "rrd", "verify", tmp_path / "room.rrd"], check=True, capture_output=True)
+
+
 def test_the_web_viewer_is_served_on_loopback_until_the_view_ends(start: Start) -> None:
     pytest.importorskip("rerun")
     import urllib.request

@@ -30,8 +30,8 @@ WEIGHTLESS = EMPTY.replace(f"y: {GRAVITY_Y}", "y: 0")
 class Urtod:
     """A running server."""
 
-    def __init__(self, scene: Path, *options: str) -> None:
-        command = [str(URTOD), "--scene", str(scene), "--listen", "127.0.0.1:0", *options]
+    def __init__(self, scene: Path, *options: str, listen: str = "127.0.0.1:0") -> None:
+        command = [str(URTOD), "--scene", str(scene), "--listen", listen, *options]
         self.process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
         self.lines: list[str] = []
         self._endpoints: queue.Queue[str | None] = queue.Queue()
@@ -70,15 +70,15 @@ Start = Callable[..., Urtod]
 
 @pytest.fixture
 def start(tmp_path: Path) -> Iterator[Start]:
-    """Starts servers: `start(scene, *options)` with a scene of tests/scenes by name, or the text of one."""
+    """Starts servers: `start(scene, *options, listen=…)` with a scene of tests/scenes by name, or the text of one."""
     servers: list[Urtod] = []
 
-    def start_one(scene: str, *options: str) -> Urtod:
+    def start_one(scene: str, *options: str, **others: str) -> Urtod:
         path = ROOT / "tests" / "scenes" / f"{scene}.txtpb"
         if "\n" in scene:
             path = tmp_path / f"scene{len(servers)}.txtpb"
             path.write_text(scene, encoding="utf-8")
-        servers.append(Urtod(path, *options))
+        servers.append(Urtod(path, *options, **others))
         return servers[-1]
 
     yield start_one

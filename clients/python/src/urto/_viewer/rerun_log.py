@@ -43,7 +43,7 @@ SPOKE_WIDTH = 0.05
 VELOCITY_SECONDS = 0.25
 """Arrows of velocity reach where the body would be after that long."""
 
-NORMAL_LENGTH = 0.02
+NORMAL_LENGTH = 0.012
 """Of the view's width."""
 
 CONTACT_EVENTS_MAX = 20
@@ -143,7 +143,8 @@ class RerunLog:
             self._stream.log(
                 f"{CAMERA}/velocities",
                 rr.Arrows2D(
-                    origins=self._to_pixels(shapes.poses.position[moving]), vectors=velocity, colors=[VELOCITY]
+                    origins=self._to_pixels(shapes.poses.position[moving]), vectors=velocity, colors=[VELOCITY],
+                    radii=rr.Radius.ui_points(1.0), draw_order=40,
                 ),
             )
 
@@ -151,13 +152,13 @@ class RerunLog:
         points = self._to_pixels(contacts.point)
         length = NORMAL_LENGTH * (self._right - self._left)
         self._stream.log(
-            f"{CAMERA}/contacts", rr.Points2D(points, colors=[CONTACT], radii=rr.Radius.ui_points(3.0), draw_order=50)
+            f"{CAMERA}/contacts", rr.Points2D(points, colors=[CONTACT], radii=rr.Radius.ui_points(2.0), draw_order=50)
         )
         self._stream.log(
             f"{CAMERA}/normals",
             rr.Arrows2D(
                 origins=points, vectors=np.asarray(contacts.normal) * [length, -length], colors=[CONTACT],
-                radii=rr.Radius.ui_points(1.0),
+                radii=rr.Radius.ui_points(0.7), draw_order=50,
             ),
         )  # fmt: skip
 
