@@ -9,9 +9,9 @@ constexpr std::uint32_t kMovableColors = kColorsMax / 2;  // the other half is f
 
 // A colour that neither body has yet; the last of its kind when all are taken.
 std::uint32_t first_free(std::uint64_t taken, std::uint32_t begin, std::uint32_t end) {
-  for (std::uint32_t c = begin; c + 1 < end; ++c)
-    if (!(taken >> c & 1u)) return c;
-  return end - 1;
+  const std::uint64_t kind = (end < 64 ? (1ull << end) : 0ull) - (1ull << begin);
+  const std::uint64_t free = ~taken & kind;
+  return free == 0 ? end - 1 : static_cast<std::uint32_t>(__builtin_ctzll(free));
 }
 
 template <class S>
@@ -26,122 +26,124 @@ std::uint32_t color_of(WorldData<S>& world, const Contact<S>& c) {
   return color;
 }
 
+bool takes_what_fits_nowhere(std::uint32_t color) { return color == kMovableColors - 1 || color == kColorsMax - 1; }
+
 // Counting sort by colour: stable, so that within a colour the order of the active list stays.
+// begin: one entry past the last colour too.
 template <class S>
-void sort_by_color(WorldData<S>& world, ConstraintSet<S>& set) {
+void sort_by_color(WorldData<S>& world, ConstraintSet<S>& set, std::uint32_t (&begin)[kColorsMax + 1]) {
   world.scratch.colors.assign(world.bodies.size(), 0);
   set.touching.clear();
   set.colors.clear();
-  set.color_begin.assign(kColorsMax + 1, 0);
+  for (std::uint32_t& b : begin) b = 0;
   for (std::uint32_t slot : world.active) {
     const Contact<S>& c = world.contacts[slot];
     if (c.count == 0 || c.sensor()) continue;
     const std::uint32_t color = color_of(world, c);
     set.touching.push_back(slot);
     set.colors.push_back(static_cast<std::uint8_t>(color));
-    ++set.color_begin[color + 1];
+    ++begin[color + 1];
   }
-  for (std::uint32_t c = 0; c < kColorsMax; ++c) set.color_begin[c + 1] += set.color_begin[c];
-  set.contacts.resize(set.touching.size());
+  for (std::uint32_t c = 0; c < kColorsMax; ++c) begin[c + 1] += begin[c];
+  set.sorted.resize(set.touching.size());
   std::uint32_t next[kColorsMax];
-  for (std::uint32_t c = 0; c < kColorsMax; ++c) next[c] = set.color_begin[c];
-  for (std::size_t i = 0; i < set.touching.size(); ++i) set.contacts[next[set.colors[i]]++].contact = set.touching[i];
-}
-
-// A damped spring of frequency f and damping ratio ζ as a soft constraint, integrated implicitly (Catto, "Soft
-// Constraints", GDC 2011). Ours differs: the spring answers to what the point carries beyond its preload P, a slow
-// average of its impulse,  v + bias_rate · s = −compliance · k · (λ − P).  A plain spring has to be compressed to carry
-// what lies on it, and a stack of N boxes sinks by N² of that; with the preload it carries its load uncompressed in the
-// end, and still yields to sudden change. (The multiplier of an augmented Lagrangian, updated slowly enough that the
-// update does not race the solver's own convergence up the stack: kPreloadTime.)
-template <class S>
-struct Softness {
-  S bias_rate;   // ω / (2ζ + hω)
-  S compliance;  // 1 / (hω (2ζ + hω))
-  Softness(S hertz, S damping_ratio, S h) {
-    const S omega = S(2 * 3.14159265358979323846) * hertz;
-    bias_rate = omega / (S(2) * damping_ratio + h * omega);
-    compliance = S(1) / (h * omega * (S(2) * damping_ratio + h * omega));
-  }
-};
-
-template <class S>
-void prepare_point(ConstraintPoint<S>& p, const ManifoldPoint<S>& mp, const ContactConstraint<S>& k,
-                   const Motion<S>& ma, const Motion<S>& mb) {
-  p.ax = mp.ax;
-  p.ay = mp.ay;
-  p.bx = mp.bx;
-  p.by = mp.by;
-  p.separation = mp.separation;
-  p.normal_impulse = mp.normal_impulse;
-  p.tangent_impulse = mp.tangent_impulse;
-  p.preload = mp.preload;
-  p.total_normal_impulse = p.total_tangent_impulse = S(0);
-  const S tx = k.ny, ty = -k.nx;
-  const S rna = p.ax * k.ny - p.ay * k.nx, rnb = p.bx * k.ny - p.by * k.nx;
-  const S rta = p.ax * ty - p.ay * tx, rtb = p.bx * ty - p.by * tx;
-  const S kn = k.inv_mass_a + k.inv_mass_b + k.inv_inertia_a * rna * rna + k.inv_inertia_b * rnb * rnb;
-  const S kt = k.inv_mass_a + k.inv_mass_b + k.inv_inertia_a * rta * rta + k.inv_inertia_b * rtb * rtb;
-  p.inverse_mass = kn;
-  p.tangent_mass = kt > S(0) ? S(1) / kt : S(0);
-  const S dvx = (mb.vx - mb.w * p.by) - (ma.vx - ma.w * p.ay);
-  const S dvy = (mb.vy + mb.w * p.bx) - (ma.vy + ma.w * p.ax);
-  p.approach = dvx * k.nx + dvy * k.ny;
+  for (std::uint32_t c = 0; c < kColorsMax; ++c) next[c] = begin[c];
+  for (std::size_t i = 0; i < set.touching.size(); ++i) set.sorted[next[set.colors[i]]++] = set.touching[i];
 }
 
 template <class S>
-void prepare_contact(const WorldData<S>& world, ContactConstraint<S>& k, const Softness<S>& soft) {
-  const Contact<S>& c = world.contacts[k.contact];
+void put_point(PointLanes<S>& lanes, int lane, const ManifoldPoint<S>& p) {
+  lanes.ax[lane] = p.ax;
+  lanes.ay[lane] = p.ay;
+  lanes.bx[lane] = p.bx;
+  lanes.by[lane] = p.by;
+  lanes.separation[lane] = p.separation;
+  lanes.normal_impulse[lane] = p.normal_impulse;
+  lanes.tangent_impulse[lane] = p.tangent_impulse;
+  lanes.preload[lane] = p.preload;
+  lanes.total_normal_impulse[lane] = S(0);
+  lanes.total_tangent_impulse[lane] = S(0);
+}
+
+template <class S>
+void put_contact(const WorldData<S>& world, ContactBlock<S>& block, std::uint32_t slot) {
+  const Contact<S>& c = world.contacts[slot];
   const Body<S>&a = world.bodies[c.body_a], &b = world.bodies[c.body_b];
-  k.a = c.body_a;
-  k.b = c.body_b;
-  k.count = static_cast<int>(c.count);
-  k.nx = c.nx;
-  k.ny = c.ny;
-  k.friction = c.friction;
-  k.restitution = c.restitution;
-  k.inv_mass_a = a.inv_mass;
-  k.inv_mass_b = b.inv_mass;
-  k.inv_inertia_a = a.inv_inertia;
-  k.inv_inertia_b = b.inv_inertia;
-  const S inv_masses = a.inv_mass + b.inv_mass;
-  k.share_a = inv_masses > S(0) ? b.inv_mass / inv_masses : S(0);
-  k.bias_rate = soft.bias_rate;
-  k.compliance = soft.compliance;
-  for (int i = 0; i < k.count; ++i) prepare_point(k.points[i], c.points[i], k, world.motions[k.a], world.motions[k.b]);
-  if (k.count < 2) return;
-  const ConstraintPoint<S>&p = k.points[0], &q = k.points[1];
-  const S pa = p.ax * k.ny - p.ay * k.nx, pb = p.bx * k.ny - p.by * k.nx;
-  const S qa = q.ax * k.ny - q.ay * k.nx, qb = q.bx * k.ny - q.by * k.nx;
-  k.coupling = inv_masses + k.inv_inertia_a * pa * qa + k.inv_inertia_b * pb * qb;
+  const int lane = static_cast<int>(block.count++);
+  block.a[lane] = c.body_a;
+  block.b[lane] = c.body_b;
+  block.contact[lane] = slot;
+  block.movable_a[lane] = a.inv_mass > S(0);
+  block.movable_b[lane] = b.inv_mass > S(0);
+  block.nx[lane] = c.nx;
+  block.ny[lane] = c.ny;
+  block.friction[lane] = c.friction;
+  block.restitution[lane] = c.restitution;
+  block.inv_mass_a[lane] = a.inv_mass;
+  block.inv_inertia_a[lane] = a.inv_inertia;
+  block.inv_mass_b[lane] = b.inv_mass;
+  block.inv_inertia_b[lane] = b.inv_inertia;
+  block.two[lane] = c.count == 2 ? S(1) : S(0);
+  put_point(block.points[0], lane, c.points[0]);
+  put_point(block.points[1], lane, c.points[1]);
+}
+
+// Unused lanes compute on zeros and a mass of one, and are not written back.
+template <class S>
+void start_block(ContactBlock<S>& block) {
+  block = ContactBlock<S>{};
+  for (int lane = 0; lane < kLanes<S>; ++lane) block.inv_mass_a[lane] = S(1);
 }
 
 }  // namespace
 
 template <class S>
-void prepare_contacts(WorldData<S>& world, ConstraintSet<S>& set, S h) {
-  sort_by_color(world, set);
-  const S hertz = min_of(S(kContactHertz), S(kContactHertzPerSubStepRate) / h);
-  const Softness<S> soft(hertz, S(kContactDampingRatio), h);
-  for (ContactConstraint<S>& k : set.contacts) prepare_contact(world, k, soft);
+Softness<S>::Softness(S hertz, S damping_ratio, S h) {
+  const S omega = S(2 * 3.14159265358979323846) * hertz;
+  bias_rate = omega / (S(2) * damping_ratio + h * omega);
+  compliance = S(1) / (h * omega * (S(2) * damping_ratio + h * omega));
+}
+
+template <class S>
+void gather_contacts(WorldData<S>& world, ConstraintSet<S>& set) {
+  std::uint32_t begin[kColorsMax + 1];
+  sort_by_color(world, set, begin);
+  std::size_t used = 0;
+  const auto next_block = [&]() -> ContactBlock<S>& {
+    if (used == set.blocks.size()) set.blocks.emplace_back();
+    start_block(set.blocks[used]);
+    return set.blocks[used++];
+  };
+  for (std::uint32_t color = 0; color < kColorsMax; ++color) {
+    const std::uint32_t lanes = takes_what_fits_nowhere(color) ? 1u : static_cast<std::uint32_t>(kLanes<S>);
+    for (std::uint32_t i = begin[color]; i < begin[color + 1];) {
+      ContactBlock<S>& block = next_block();
+      for (; i < begin[color + 1] && block.count < lanes; ++i) put_contact(world, block, set.sorted[i]);
+    }
+  }
+  set.blocks.resize(used);
 }
 
 template <class S>
 void store_impulses(WorldData<S>& world, const ConstraintSet<S>& set) {
-  for (const ContactConstraint<S>& k : set.contacts) {
-    Contact<S>& c = world.contacts[k.contact];
-    for (int i = 0; i < k.count; ++i) {
-      c.points[i].normal_impulse = k.points[i].normal_impulse;
-      c.points[i].tangent_impulse = k.points[i].tangent_impulse;
-      c.points[i].preload = k.points[i].preload;
-      c.points[i].total_normal_impulse = k.points[i].total_normal_impulse;
-      c.points[i].total_tangent_impulse = k.points[i].total_tangent_impulse;
+  for (const ContactBlock<S>& block : set.blocks) {
+    for (std::uint32_t lane = 0; lane < block.count; ++lane) {
+      Contact<S>& c = world.contacts[block.contact[lane]];
+      for (std::uint32_t i = 0; i < c.count; ++i) {
+        const PointLanes<S>& p = block.points[i];
+        c.points[i].normal_impulse = p.normal_impulse[lane];
+        c.points[i].tangent_impulse = p.tangent_impulse[lane];
+        c.points[i].preload = p.preload[lane];
+        c.points[i].total_normal_impulse = p.total_normal_impulse[lane];
+        c.points[i].total_tangent_impulse = p.total_tangent_impulse[lane];
+      }
     }
   }
 }
 
-#define URTO_INSTANTIATE(S)                                            \
-  template void prepare_contacts(WorldData<S>&, ConstraintSet<S>&, S); \
+#define URTO_INSTANTIATE(S)                                        \
+  template struct Softness<S>;                                     \
+  template void gather_contacts(WorldData<S>&, ConstraintSet<S>&); \
   template void store_impulses(WorldData<S>&, const ConstraintSet<S>&);
 URTO_INSTANTIATE(float)
 URTO_INSTANTIATE(double)
