@@ -70,7 +70,7 @@ def test_echo(call, fake: FakeRoom) -> None:  # type: ignore[no-untyped-def]
 
 def test_errors_are_one_line_with_an_exit_code(call) -> None:  # type: ignore[no-untyped-def]
     for arguments, expected, text in (
-        (("info", "--endpoint", "tcp/127.0.0.1:1", "--timeout", "0.2"), _cli.EXIT_UNREACHABLE, "no Urto server answers"),
+        (("info", "--endpoint", "tcp/127.0.0.1:1", "--timeout", "0.2"), _cli.EXIT_UNREACHABLE, "no Urto server"),
         (("info", "--room", "nowhere"), _cli.EXIT_UNREACHABLE, "no room 'nowhere'"),
         (("info", "--room", "a/b"), _cli.EXIT_USAGE, "room must be"),
         (("spawn", "box", "1"), _cli.EXIT_USAGE, "a box is WIDTH HEIGHT"),

@@ -45,7 +45,7 @@ EXIT_REJECTED = 4
 EXIT_INTERRUPTED = 130
 
 _EPILOG = """\
-environment: URTO_ENDPOINT, URTO_ROOM, URTO_USER stand in for the options, URTO_PASSWORD is the only way to give a password.
+environment: URTO_ENDPOINT, URTO_ROOM, URTO_USER stand in for the options; a password comes from URTO_PASSWORD alone.
 exit codes: 0 done, 1 failed, 2 wrong usage, 3 no such server or room or no answer in time, 4 the room refused it."""
 
 
@@ -266,7 +266,8 @@ def _view(room: Room, options: argparse.Namespace) -> None:
     view(
         room,
         ViewOptions(
-            save=options.save, picture=options.picture, web=options.web, web_port=options.web_port, connect=options.connect,
+            save=options.save, picture=options.picture,
+            web=options.web, web_port=options.web_port, connect=options.connect,
             seconds=options.seconds, ticks=options.ticks, rate_hz=options.rate, velocities=options.velocities,
             contacts=options.contacts, screenshot=options.screenshot,
         ),

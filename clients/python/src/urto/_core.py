@@ -276,7 +276,7 @@ class Core:
         if self.closed:
             raise ClosedError("the room is closed")
         if not self._present:
-            raise ConnectionLost(f"room {self.room!r} at {self.endpoint} is gone: its server ended or the network broke")
+            raise ConnectionLost(f"room {self.room!r} at {self.endpoint} is gone: its server or the network ended")
 
     # Requests
 
