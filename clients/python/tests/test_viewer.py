@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import signal
 import subprocess
 from pathlib import Path
 from typing import Any
@@ -68,7 +70,8 @@ def test_a_saved_view_holds_what_the_room_did(room: urto.Room, fake: FakeRoom, t
     assert centers[0][1] == pytest.approx(6 + GRAVITY_Y * TIME_STEP**2 * last * (last + 1) / 2, rel=1e-5)
     entities = {entity for entity, _ in _chunks(recording)}
     for entity in (
-        "/room/static/boxes", "/room/bodies/discs", "/room/bodies/spokes", "/room/bodies/polygons",
+        "/room/static/boxes",
+        "/room/bodies/edges", "/room/bodies/discs", "/room/bodies/spokes", "/room/bodies/polygons",
         "/room/sensors/discs", "/room/camera", "/room/camera/velocities", "/room/camera/contacts",
         "/room/camera/normals",
     ):  # fmt: skip
@@ -111,7 +114,8 @@ def test_what_is_despawned_is_gone_from_the_next_layout(room: urto.Room, tmp_pat
     for entity, column in (
         ("boxes", "Boxes3D:half_sizes"), ("discs", "Ellipsoids3D:half_sizes"), ("polygons", "Mesh3D:vertex_positions"),
     ):  # fmt: skip
-        counts = [(tick, len(value)) for tick, value in _values(tmp_path / "room.rrd", f"/room/bodies/{entity}", column)]
+        values = _values(tmp_path / "room.rrd", f"/room/bodies/{entity}", column)
+        counts = [(tick, len(value)) for tick, value in values]
         assert counts[0][1] > 0
         assert counts[-1] == (5, 0), entity
 
@@ -155,6 +159,39 @@ def test_without_a_display_the_error_says_what_to_do(room: urto.Room, monkeypatc
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
     with pytest.raises(outputs.ViewerError, match="--save DIR, --web, or --connect URL"):
         view(room, ViewOptions(), print)
+
+
+def test_a_viewer_that_breaks_down_is_an_error(
+    room: urto.Room, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    broken = tmp_path / "rerun"
+    broken.write_text("#!/bin/sh\necho 'no graphics here' >&2\nexit 3\n")
+    broken.chmod(0o755)
+    monkeypatch.setattr(outputs, "rerun_program", lambda: str(broken))
+    with pytest.raises(outputs.ViewerError, match="no graphics here"):
+        view(room, ViewOptions(web=True), print)
+    with pytest.raises(outputs.ViewerError, match="mesa-vulkan-drivers libvulkan1"):
+        view(room, ViewOptions(save=tmp_path / "out", seconds=0.01, screenshot=True), print)
+    assert (tmp_path / "out" / "room.png").exists()
+
+
+def test_a_web_view_whose_server_is_killed_says_so(room: urto.Room, fake: FakeRoom) -> None:
+    def kill(line: str) -> None:
+        assert line.startswith("open in a browser")
+        (process,) = started
+        os.killpg(process._process.pid, signal.SIGKILL)
+
+    started: list[outputs.ViewerProcess] = []
+    original = outputs.ViewerProcess.__init__
+
+    def remember(self: outputs.ViewerProcess, *arguments: str, port: int) -> None:
+        original(self, *arguments, port=port)
+        started.append(self)
+
+    with pytest.MonkeyPatch.context() as patch, Running(fake):
+        patch.setattr(outputs.ViewerProcess, "__init__", remember)
+        with pytest.raises(outputs.ViewerError, match="ended with an error"):
+            view(room, ViewOptions(web=True), kill)
 
 
 def test_no_viewer_at_the_url_is_told_at_once(room: urto.Room) -> None:

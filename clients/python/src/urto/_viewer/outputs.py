@@ -115,6 +115,11 @@ class ViewerProcess:
     def is_running(self) -> bool:
         return self._process.poll() is None
 
+    def check_end(self) -> None:
+        """ViewerError if it has ended with an error."""
+        if self._process.poll():
+            raise ViewerError(f"the Rerun viewer ended with an error: {self._output()}")
+
     def close(self) -> None:
         # The program that pip installs starts the real one, so the whole group is ended, also if its leader is gone.
         self._signal(signal.SIGTERM)

@@ -6,6 +6,7 @@ Overlays are 2D, in pixels of that camera: x − left, top − y.
 
     room/camera            the pinhole; below it the overlays velocities, contacts, normals
     room/<layer>/boxes     layer: static, bodies, sensors
+    room/<layer>/edges     the outlines of the boxes
     room/<layer>/discs
     room/<layer>/spokes    a radius of every disc, which shows how it is turned
     room/<layer>/polygons
@@ -34,8 +35,9 @@ CAMERA_DISTANCE = 1000.0
 DEPTH = 0.01
 """m, thickness of a shape towards the camera."""
 
-SPOKE_DEPTH = 0.03
-"""m, how far before its disc a spoke is."""
+LINE_DEPTH = 0.2
+"""m, how far before the shapes their edges and spokes are: enough for the depth buffer, and at CAMERA_DISTANCE a shift
+of 0.02 %."""
 
 SPOKE_WIDTH = 0.05
 """Of the radius."""
@@ -49,11 +51,11 @@ NORMAL_LENGTH = 0.012
 CONTACT_EVENTS_MAX = 20
 """Lines in the event log per frame that are about contacts; the rest is counted in one line."""
 
-_FILL = {
-    "static": rr.components.FillMode.Solid,
-    "bodies": rr.components.FillMode.TransparentFillMajorWireframe,
-    "sensors": rr.components.FillMode.MajorWireframe,
-}
+EDGES_MAX = 4000
+"""Boxes of a layer up to which each gets an edge line; more are too small on a screen to need one."""
+
+_SOLID = rr.components.FillMode.Solid
+_WIRE = rr.components.FillMode.MajorWireframe
 _PLOTS: dict[str, tuple[tuple[str, str, tuple[int, int, int]], ...]] = {
     "energy": (
         ("kinetic", "kinetic, J", (246, 144, 61)),
@@ -131,7 +133,7 @@ class RerunLog:
         ids = shapes.poses.ids
         for name in LAYERS:
             layer = shapes.layers[name]
-            self._log_layer_layout(f"room/{name}", layer, ids, _FILL[name])
+            self._log_layer_layout(f"room/{name}", layer, ids, _WIRE if name == "sensors" else _SOLID)
         self._log_poses(shapes, LAYERS)
 
     def log_poses(self, shapes: ShapeSet) -> None:
@@ -211,15 +213,21 @@ class RerunLog:
         half = np.column_stack([boxes.half_size, np.full(len(boxes.rows), DEPTH / 2)])
         log(f"{path}/boxes", rr.Boxes3D.from_fields(half_sizes=half, colors=boxes.color, fill_mode=fill))
         log_ids(f"{path}/boxes", boxes.rows)
+        if _has_edges(layer):
+            edge_color = [darker((r, g, b), 0.5) for r, g, b in boxes.color.tolist()]
+            edges = rr.Boxes3D.from_fields(
+                half_sizes=half, colors=edge_color, fill_mode=_WIRE, radii=rr.Radius.ui_points(0.7)
+            )
+            log(f"{path}/edges", edges)
+        else:
+            log(f"{path}/edges", rr.Boxes3D.from_fields(half_sizes=[]))
         # A flat ellipsoid is rounder than Rerun's cylinder.
         flat = np.column_stack([discs.radius, discs.radius, np.full(len(discs.rows), DEPTH / 2)])
-        solid = rr.components.FillMode.Solid
-        disc_fill = fill if fill == rr.components.FillMode.MajorWireframe else solid
-        log(f"{path}/discs", rr.Ellipsoids3D.from_fields(half_sizes=flat, colors=discs.color, fill_mode=disc_fill))
+        log(f"{path}/discs", rr.Ellipsoids3D.from_fields(half_sizes=flat, colors=discs.color, fill_mode=fill))
         log_ids(f"{path}/discs", discs.rows)
         spoke = np.column_stack([discs.radius * 0.46, discs.radius * SPOKE_WIDTH / 2, np.full(len(discs.rows), DEPTH)])
         spoke_color = [darker((r, g, b), 0.35) for r, g, b in discs.color.tolist()]
-        log(f"{path}/spokes", rr.Boxes3D.from_fields(half_sizes=spoke, colors=spoke_color, fill_mode=solid))
+        log(f"{path}/spokes", rr.Boxes3D.from_fields(half_sizes=spoke, colors=spoke_color, fill_mode=_SOLID))
         mesh = rr.Mesh3D.from_fields(triangle_indices=polygons.triangle, vertex_colors=polygons.color)
         if len(polygons.rows) == 0:  # without vertices nothing of an earlier layout is left
             mesh = rr.Mesh3D.from_fields(vertex_positions=[], triangle_indices=[], vertex_colors=[])
@@ -236,6 +244,9 @@ class RerunLog:
                 centers = _lift(poses.to_world(boxes.rows, boxes.center), 0.0)
                 turned = _quaternions(poses.angle[boxes.rows] + boxes.angle)
                 log(f"room/{name}/boxes", rr.Boxes3D.from_fields(centers=centers, quaternions=turned))
+                if _has_edges(layer):
+                    centers[:, 2] = LINE_DEPTH
+                    log(f"room/{name}/edges", rr.Boxes3D.from_fields(centers=centers, quaternions=turned))
             if len(discs.rows):
                 middle = poses.to_world(discs.rows, discs.center)
                 angle = poses.angle[discs.rows]
@@ -244,7 +255,7 @@ class RerunLog:
                 log(
                     f"room/{name}/spokes",
                     rr.Boxes3D.from_fields(
-                        centers=_lift(middle + along, SPOKE_DEPTH), quaternions=_quaternions(angle)
+                        centers=_lift(middle + along, LINE_DEPTH), quaternions=_quaternions(angle)
                     ),
                 )
             if len(polygons.rows):
@@ -254,6 +265,10 @@ class RerunLog:
     def _to_pixels(self, points: npt.ArrayLike) -> npt.NDArray[np.float64]:
         points = np.asarray(points, dtype=np.float64).reshape(-1, 2)
         return np.column_stack([points[:, 0] - self._left, self._upper - points[:, 1]])
+
+
+def _has_edges(layer: Layer) -> bool:
+    return 0 < len(layer.boxes.rows) <= EDGES_MAX
 
 
 def _lift(points: npt.NDArray[np.float64], z: float) -> npt.NDArray[np.float32]:

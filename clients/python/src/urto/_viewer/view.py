@@ -137,6 +137,11 @@ class _Outputs:
         """False when the viewer that this view started was closed."""
         return self.process is None or self.process.is_running()
 
+    def check_end(self) -> None:
+        """ViewerError if the viewer that this view started did not end well."""
+        if self.process is not None:
+            self.process.check_end()
+
     def close(self) -> None:
         if self.process is not None:
             self.process.close()
@@ -220,7 +225,8 @@ class _View:
             try:
                 stream.flush(timeout_sec=FLUSH_TIMEOUT_S)
             except (RuntimeError, ValueError) as error:
-                raise ViewerError(f"the viewer no longer takes data: {error}") from None
+                if self._outputs.check():  # else the viewer was closed, and nobody waits for the rest
+                    raise ViewerError(f"the viewer no longer takes data: {error}") from None
             finally:
                 stream.disconnect()
 
@@ -254,6 +260,7 @@ def view(room: Room, options: ViewOptions, say: Callable[[str], None]) -> None:
             if outputs.files is not None:
                 say(f"recording to {outputs.files.recording}")
             _follow(room, options, outputs, shown)
+            outputs.check_end()
         except KeyboardInterrupt:
             pass
         finally:
