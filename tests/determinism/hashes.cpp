@@ -1,10 +1,11 @@
-// Steps a list of worlds and prints the hash of their whole state on the way. Every compiler, optimisation level and
-// processor has to print the same (docs/architecture.md, Determinism); golden.txt holds what they print.
+// Steps a list of worlds and prints the hash of their whole state on the way. Every compiler, optimisation level,
+// processor and SIMD width has to print the same (docs/architecture.md, Determinism); golden.txt holds what they print.
 //
 // usage: determinism_hashes [--check GOLDEN]
 //
-// A world's line: its name, the number of steps, the hash. With --check it compares with the file, names each line that
-// differs, and exits with 1; the first differing line of a world tells when it went apart.
+// A world's line: its name, the number of steps, the hash. With --check it compares with the file once for each SIMD
+// instruction set that this machine has, names each line that differs, and exits with 1; the first differing line of a
+// world tells when it went apart.
 
 #include <algorithm>
 #include <array>
@@ -19,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "physics/solver/contact_kernels.h"
 #include "physics/world.h"
 
 namespace urto {
@@ -273,7 +275,14 @@ std::vector<std::string> run(const Case& each) {
   return lines;
 }
 
-int compare(const std::vector<std::string>& lines, const char* path) {
+std::vector<std::string> run_all() {
+  std::vector<std::string> lines;
+  for (const Case& each : cases())
+    for (std::string& line : run(each)) lines.push_back(std::move(line));
+  return lines;
+}
+
+int compare(const std::vector<std::string>& lines, const std::string& target, const char* path) {
   std::ifstream file(path);
   if (!file) {
     std::fprintf(stderr, "cannot read %s\n", path);
@@ -289,7 +298,7 @@ int compare(const std::vector<std::string>& lines, const char* path) {
     ++differing;
     std::printf("expected %s\nfound    %s\n", golden[index].c_str(), lines[index].c_str());
   }
-  std::printf("%zu hashes, %d differ\n", lines.size(), differing);
+  std::printf("%s: %zu hashes, %d differ\n", target.c_str(), lines.size(), differing);
   return differing ? 1 : 0;
 }
 
@@ -302,11 +311,15 @@ int main(int count, char** arguments) {
     std::fprintf(stderr, "usage: determinism_hashes [--check GOLDEN]\n");
     return 2;
   }
-  std::vector<std::string> lines;
-  for (const urto::Case& each : urto::cases())
-    for (std::string& line : urto::run(each)) lines.push_back(std::move(line));
-  if (check) return urto::compare(lines, arguments[2]);
+  if (check) {
+    int status = 0;
+    for (const urto::SimdTarget& target : urto::simd_targets()) {
+      urto::use_simd_target(target.id);
+      status = std::max(status, urto::compare(urto::run_all(), target.name, arguments[2]));
+    }
+    return status;
+  }
   std::printf("# Made by determinism_hashes: world, steps, hash of the whole state.\n");
-  for (const std::string& line : lines) std::printf("%s\n", line.c_str());
+  for (const std::string& line : urto::run_all()) std::printf("%s\n", line.c_str());
   return 0;
 }
