@@ -184,8 +184,8 @@ def test_a_web_view_whose_server_is_killed_says_so(room: urto.Room, fake: FakeRo
     started: list[outputs.ViewerProcess] = []
     original = outputs.ViewerProcess.__init__
 
-    def remember(self: outputs.ViewerProcess, *arguments: str, port: int) -> None:
-        original(self, *arguments, port=port)
+    def remember(self: outputs.ViewerProcess, *arguments: str, **ports: int) -> None:
+        original(self, *arguments, **ports)
         started.append(self)
 
     with pytest.MonkeyPatch.context() as patch, Running(fake):

@@ -78,7 +78,7 @@ def check_listening(url: str) -> None:
 class ViewerProcess:
     """A program of Rerun that this program started and ends."""
 
-    def __init__(self, *arguments: str, port: int) -> None:
+    def __init__(self, *arguments: str, port: int, web_port: int | None = None) -> None:
         command = [rerun_program(), "--bind", "127.0.0.1", "--port", str(port), *arguments]
         self.url = proxy_url(port)
         self._log = tempfile.TemporaryFile()
@@ -89,6 +89,8 @@ class ViewerProcess:
         )  # fmt: skip
         try:
             self._wait_listening(port)
+            if web_port is not None:
+                self._wait_listening(web_port)
         except BaseException:
             self.close()
             raise
@@ -157,6 +159,7 @@ def open_web(web_port: int | None = None) -> tuple[ViewerProcess, str]:
     port, free_web_port = free_ports(2)
     chosen = web_port or free_web_port
     process = ViewerProcess(
-        "--serve-web", "--web-viewer-port", str(chosen), "--server-memory-limit", SERVER_MEMORY, port=port
-    )
+        "--serve-web", "--web-viewer-port", str(chosen), "--server-memory-limit", SERVER_MEMORY, port=port,
+        web_port=chosen,
+    )  # fmt: skip
     return process, f"http://127.0.0.1:{chosen}?url={proxy_url(port).replace(':', '%3A').replace('/', '%2F')}"
