@@ -149,14 +149,19 @@ def _example(name: str, *arguments: str, cwd: Path) -> str:
 
 
 def test_the_first_script(start: Start, tmp_path: Path) -> None:
-    urtod = start("platformer")
-    lines = _example("first_script.py", urtod.endpoint, cwd=tmp_path).splitlines()
-    assert len(lines) > 10
-    assert all(line.startswith("tick ") for line in lines)
-    heights = [float(line.split(" y ")[1].split()[0]) for line in lines]
-    assert heights[0] > heights[-1]
-    with urto.connect(urtod.endpoint, timeout=TIMEOUT_S) as room:
-        assert len(room.bodies()) == len(room.state().bodies)
+    urtod = start("pyramid")
+    with urto.connect(urtod.endpoint, user="watcher", timeout=TIMEOUT_S) as room:
+        bodies = len(room.bodies())
+        lines = _example("first_script.py", urtod.endpoint, cwd=tmp_path).splitlines()
+        assert len(room.bodies()) == bodies
+    # Frames may be missed, so not each of the seven lines need be there.
+    assert 2 <= len(lines) <= 7
+    rows = [line.split() for line in lines]
+    for row in rows:
+        # A free flight: v = 2 N·s / (π 0.5² kg), and half of g t² below where it began.
+        seconds = int(row[1]) / 60
+        assert float(row[4]) == pytest.approx(2 / 0.785398 * seconds, abs=0.02)
+        assert float(row[7]) == pytest.approx(40 - 9.81 / 2 * seconds**2, abs=0.2)
 
 
 def test_the_game_of_two_players(start: Start, tmp_path: Path) -> None:

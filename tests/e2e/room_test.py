@@ -78,6 +78,19 @@ def test_a_running_room_moves_by_itself_and_stands_still_when_paused(start: Star
         assert next(room.frames()).tick >= tick
 
 
+def test_a_slow_reader_gets_the_newest_frame_and_knows_what_it_missed(start: Start) -> None:
+    urtod = start(WEIGHTLESS)
+    with _connect(urtod.endpoint) as room:
+        room.spawn(urto.Circle(radius=0.5))
+        frames = room.frames()
+        first = next(frames)
+        while room.info().tick < first.tick + 100:  # busy with something else
+            pass
+        second = next(frames)
+        assert second.tick >= first.tick + 50  # the newest or nearly so; without the ring it would be the next one
+        assert frames.missed == second.tick - first.tick - 1
+
+
 def test_a_batch_is_done_at_one_tick_or_not_at_all(start: Start) -> None:
     urtod = start(WEIGHTLESS)
     with _connect(urtod.endpoint) as room:
