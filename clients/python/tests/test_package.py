@@ -58,3 +58,8 @@ def test_generated_modules_are_up_to_date() -> None:
         [sys.executable, ROOT / "scripts" / "generate-proto", "--check"], capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
+
+
+def test_the_readme_shows_the_first_script_as_it_is() -> None:
+    script = (ROOT / "examples" / "first_script.py").read_text(encoding="utf-8").split('"""', 2)[2].strip()
+    assert script in (ROOT / "README.md").read_text(encoding="utf-8")
