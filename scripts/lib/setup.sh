@@ -129,7 +129,7 @@ ensure_venv() {
 # ---- C++ ----
 
 readonly BUILD_PACKAGES=(ca-certificates g++ cmake ninja-build protobuf-compiler libprotobuf-dev libeigen3-dev libexpected-dev
-  libspdlog-dev libcli11-dev libhwy-dev)
+  libxxhash-dev libhwy-dev libspdlog-dev libcli11-dev)
 readonly TEST_PACKAGES=(libgtest-dev libgmock-dev)
 readonly PICTURE_PACKAGES=(mesa-vulkan-drivers libvulkan1)  # Rerun draws without a screen by software Vulkan
 readonly WINDOW_PACKAGES=(mesa-vulkan-drivers libvulkan1 libxkbcommon-x11-0 libgl1)
