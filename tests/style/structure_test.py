@@ -31,6 +31,19 @@ THIRD_PARTIES = {
 }
 
 
+# Headers of others, by their beginning, and the Debian package that brings them: scripts/lib/setup.sh installs it.
+PACKAGES = {
+    "Eigen/": "libeigen3-dev",
+    "tl/expected": "libexpected-dev",
+    "xxhash.h": "libxxhash-dev",
+    "hwy/": "libhwy-dev",
+    "google/protobuf/": "libprotobuf-dev",
+    "spdlog/": "libspdlog-dev",
+    "CLI/": "libcli11-dev",
+    "gtest/": "libgtest-dev",
+    "gmock/": "libgmock-dev",
+}
+
 # Where a foreign program is waited for that tells nobody when it listens.
 MAY_POLL = {f"clients/python/src/urto/_viewer/{each}.py" for each in ("outputs", "screenshot")}
 
@@ -118,6 +131,23 @@ def undocumented(proto: str) -> list[str]:
 def test_a_part_includes_only_what_lies_below_it(path):
     part = name(path).split("/")[1]
     assert wrong_includes(part, path.read_text(encoding="utf-8")) == []
+
+
+@pytest.mark.parametrize("prefix, package", PACKAGES.items())
+def test_the_setup_installs_what_is_included(prefix, package):
+    sources = [
+        path.read_text(encoding="utf-8") for path in of_kind(".h", ".cpp") if not name(path).startswith("bench/")
+    ]
+    included = any(include.startswith(prefix) for text in sources for include in includes(text))
+    installed = re.search(rf"[( ]{package}[) \n]", (ROOT / "scripts/lib/setup.sh").read_text(encoding="utf-8"))
+    assert included == bool(installed)
+
+
+@pytest.mark.parametrize("path", [path for path in of_kind(".h", ".cpp") if name(path).startswith("server/")], ids=name)
+def test_a_foreign_header_has_its_package_named(path):
+    foreign = re.findall(r"^\s*#\s*include\s*<([^>]*[./][^>]*)>", path.read_text(encoding="utf-8"), re.MULTILINE)
+    compilers = ("emmintrin.h", "immintrin.h", "arm_neon.h", "pthread.h", "unistd.h", "sys/")
+    assert [each for each in foreign if not each.startswith((*PACKAGES, *compilers))] == []
 
 
 @pytest.mark.parametrize("path", of_kind(".h", ".cpp", ".rs", ".py", ".proto", ".sh", ".cmake"), ids=name)
