@@ -118,7 +118,7 @@ class ZenohTransport:
         except zenoh.ZError as error:
             hint = "; or the user or password is wrong (that looks the same)" if password is not None else ""
             raise ConnectionFailed(
-                f"no Urto server answers at {endpoint} within {timeout:g} s{hint}. Does urtod run there? ({_words(error)})"
+                f"no Urto server answers at {endpoint} within {timeout:g} s{hint}. Does urtod run? ({_words(error)})"
             ) from None
 
     def query(self, selector: str, payload: bytes | None, timeout: float) -> Future[list[bytes]]:
