@@ -27,6 +27,10 @@ inline constexpr double kContactHertzPerSubStepRate = 0.25;  // of the sub-steps
 // because the load reaches the ground more slowly than the preload chases it; longer, and they recover late.
 inline constexpr double kPreloadTime = 8.0;  // s
 
+// Faces that would meet over less than this are a seam: a body slides over it, it does not run into it. As a share of
+// the speculative reach; more than a resting body sinks in, less than any step that one means.
+inline constexpr double kSeamFraction = 0.25;
+
 // Two contact points so near to each other that their equations say the same are solved as one: least determinant,
 // as a share of the diagonal's product.
 inline constexpr double kDeterminantMin = 1e-5;

@@ -69,7 +69,7 @@ TEST(PileTest, ComesToRestAndSleeps) {
   }
   step_for(*world, 60);
   EXPECT_EQ(world->counters().awake_bodies, 0u);
-  EXPECT_LT(world->counters().penetration_max, 0.02);
+  EXPECT_LT(world->counters().penetration_max, 0.05);  // a twentieth of the largest body
 }
 
 TEST(SleepTest, ATouchWakesTheWholeIsland) {

@@ -20,6 +20,9 @@ struct Convex {
   std::uint32_t unused = 0;  // no padding bytes: records are hashed as they lie in memory
   S radius = 0;              // m ≥ 0
 
+  // For outlines that are filled at once and thrown away.
+  struct Uninitialized {};
+  explicit Convex(Uninitialized) {}
   // Eigen leaves coefficients as they are; unused ones shall be zero in the saved state.
   Convex() {
     for (std::uint32_t i = 0; i < kPolygonVerticesMax; ++i) vertices[i] = normals[i] = Vec<S>::Zero();

@@ -99,6 +99,25 @@ TEST(SoftStepTest, ContactForcesOfAStackCarryItsWeight) {
   EXPECT_NEAR(ground_force, 5 * 9.81, 0.5);
 }
 
+// A floor of plates is as smooth as one plate.
+TEST(SoftStepTest, SlidesOverSeamsWithoutNoticing) {
+  for (const double speed : {0.5, 5.0, 20.0}) {
+    auto world = make_world();
+    for (int i = 0; i < 40; ++i) {
+      BodyDef plate = box_body(i, -0.5, 1, 1, BodyType::kStatic);
+      plate.shapes[0].material.friction = 0;
+      add(*world, plate);
+    }
+    BodyDef def = box_body(1.3, 0.5);
+    def.velocity = {speed, 0};
+    def.shapes[0].material.friction = 0;
+    const BodyId id = add(*world, def);
+    step_for(*world, 30 / speed < 4 ? 30 / speed : 4);
+    EXPECT_NEAR(world->body(id)->velocity.x(), speed, 1e-4 * speed) << speed;
+    EXPECT_NEAR(world->body(id)->angle, 0, 1e-3) << speed;
+  }
+}
+
 TEST(SoftStepTest, DeepOverlapPartsWithoutAnExplosion) {
   for (const double overlap : {0.25, 0.5, 0.9}) {
     auto world = make_world(weightless());
