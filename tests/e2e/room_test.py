@@ -344,12 +344,12 @@ def test_a_server_that_comes_back_serves_its_old_clients(start: Start) -> None:
         again = start(WEIGHTLESS, "--room", "lab", listen=urtod.endpoint)
         # Zenoh finds its way back by itself; until then the room says that it is gone.
         while True:
-            changed = room._core.signal.wait()
+            version = room._core.signal.version
             try:
                 room._core.check_present()
                 break
             except urto.ConnectionLost:
-                changed.result(TIMEOUT_S)
+                room._core.signal.wait(version).result(TIMEOUT_S)
         events = room.events(timeout=TIMEOUT_S)
         with pytest.raises(urto.EventGap, match="restarted"):
             next(events)

@@ -190,10 +190,10 @@ def test_frames_are_the_newest_and_count_what_was_missed(room: urto.Room, fake: 
 
 def _wait_for_snapshot(room: urto.Room, tick: int) -> None:
     while True:
-        changed = room._core.signal.wait()
+        version = room._core.signal.version
         if snapshot_pb2.Snapshot.FromString(room._core.snapshots.latest[1]).tick == tick:
             return
-        changed.result(10)
+        room._core.signal.wait(version).result(10)
 
 
 def test_no_frame_in_time_is_a_timeout(room: urto.Room) -> None:
@@ -316,3 +316,9 @@ def test_a_program_that_forgets_to_close_ends(fake: FakeRoom) -> None:
     script = f"import urto; room = urto.connect({fake.endpoint!r}); room.frames(); print(room.name)"
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=False)
     assert (done.returncode, done.stdout, done.stderr) == (0, "demo\n", "")
+
+
+def test_reading_many_waiting_events_leaves_no_waiters_behind(room: urto.Room) -> None:
+    room._core.event_log.add(snapshot_pb2.EventBatch(first_sequence=1, events=[snapshot_pb2.Event()] * 5000))
+    assert len(list(itertools.islice(room.events(since=1, timeout=0), 5000))) == 5000
+    assert room._core.signal._waiters == []

@@ -416,7 +416,7 @@ class Core:
         limit = self.timeout if timeout is None else timeout
         deadline = time.monotonic() + limit
         while True:
-            changed = self.signal.wait()
+            version = self.signal.version
             count, payload = self.snapshots.latest
             if count > cursor.count:
                 frame = frame_from_proto(parse(snapshot_pb2.Snapshot, payload))
@@ -425,7 +425,7 @@ class Core:
             self.check_present()
             remaining = deadline - time.monotonic()
             try:
-                yield Wait(changed, None if math.isinf(limit) else max(0.0, remaining))
+                yield Wait(self.signal.wait(version), None if math.isinf(limit) else max(0.0, remaining))
             except TimeoutError:
                 why = " (it is paused)" if cursor.paused else ""
                 raise RequestTimeout(f"no frame of room {self.room!r} within {limit:g} s{why}") from None
@@ -434,7 +434,7 @@ class Core:
         """The event after the last that `cursor` has seen; None if there is none for `timeout` s."""
         deadline = time.monotonic() + timeout
         while True:
-            changed = self.signal.wait()
+            version = self.signal.version
             if self.closed:
                 raise ClosedError("the room is closed")
             if cursor.generation != self.generation:
@@ -454,7 +454,7 @@ class Core:
             if remaining <= 0:
                 return None
             try:
-                yield Wait(changed, min(EVENT_POLL_S, remaining))
+                yield Wait(self.signal.wait(version), min(EVENT_POLL_S, remaining))
             except TimeoutError:
                 if cursor.next is not None and remaining > EVENT_POLL_S:
                     yield from self._recover_events(cursor)

@@ -13,22 +13,29 @@ EVENTS_BUFFERED_MAX = 65_536
 
 
 class Signal:
-    """Wakes every waiter when something changes."""
+    """Wakes every waiter when something changes.
+
+    Look at `version`, then at what may change, and only if there is nothing `wait` for what comes after that version.
+    """
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._waiters: list[Future[None]] = []
+        self.version = 0
 
-    def wait(self) -> Future[None]:
-        """A future that the next `wake` settles. Ask for it before looking at what may change."""
+    def wait(self, version: int) -> Future[None]:
+        """A future that is settled once there is a newer version."""
         future: Future[None] = Future()
         with self._lock:
-            self._waiters = [waiter for waiter in self._waiters if not waiter.done()]
-            self._waiters.append(future)
+            if self.version == version:
+                self._waiters.append(future)
+                return future
+        future.set_result(None)
         return future
 
     def wake(self) -> None:
         with self._lock:
+            self.version += 1
             waiters, self._waiters = self._waiters, []
         for waiter in waiters:
             if waiter.set_running_or_notify_cancel():
