@@ -45,5 +45,6 @@ add_library(urto_zenoh STATIC IMPORTED GLOBAL)
 set_target_properties(urto_zenoh PROPERTIES IMPORTED_LOCATION "${URTO_ZENOH_LIBRARY}")
 target_include_directories(urto_zenoh INTERFACE "${URTO_ZENOH_INCLUDE}")
 target_link_libraries(urto_zenoh INTERFACE Threads::Threads ${CMAKE_DL_LIBS} m)
-target_link_options(urto_zenoh INTERFACE -Wl,--gc-sections)
+# psm, a dependency of Zenoh's configuration parser, has assembly without a stack note; its stack need not be executable.
+target_link_options(urto_zenoh INTERFACE -Wl,--gc-sections -Wl,-z,noexecstack)
 add_dependencies(urto_zenoh urto_zenoh_cargo)

@@ -20,7 +20,7 @@ struct ZenohCredentials {
 
 // The limits below are Zenoh settings whose defaults (1 GiB, 1000 sessions, the system's buffer, 5 s) let one client
 // hurt the others.
-inline constexpr std::size_t kMessageBytesMax = std::size_t{4} << 20;  // 65 000 spawns in one batch take less
+inline constexpr std::size_t kMessageBytesMax = std::size_t{4} << 20;
 inline constexpr std::size_t kSessionsMax = 256;
 // A client that does not read keeps what it was sent in the socket, oldest first, and reads it late. A small buffer
 // bounds how late: about six snapshots of 10 KB.

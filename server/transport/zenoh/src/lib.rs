@@ -5,6 +5,7 @@
 //!   a panic nor a C++ exception crosses the border or reaches Zenoh's threads.
 //! - No setting lives here: `open` takes the whole configuration as the JSON that config.cpp writes.
 
+use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::time::Duration;
 
 use cxx::UniquePtr;
@@ -99,8 +100,15 @@ unsafe impl Sync for ffi::QueryHandler {}
 unsafe impl Send for ffi::ReplyHandler {}
 unsafe impl Sync for ffi::ReplyHandler {}
 
-pub struct Session(zenoh::Session);
-pub struct Publisher(zenoh::pubsub::Publisher<'static>);
+/// A publisher that is still declared when its session is closed would keep the session in memory for ever: the session
+/// remembers the publisher and that remembers the session. So close() takes the publishers out first.
+type PublisherSlot = Mutex<Option<Arc<zenoh::pubsub::Publisher<'static>>>>;
+
+pub struct Session {
+    inner: zenoh::Session,
+    publishers: Mutex<Vec<Weak<PublisherSlot>>>,
+}
+pub struct Publisher(Arc<PublisherSlot>);
 pub struct Subscriber(#[allow(dead_code)] zenoh::pubsub::Subscriber<()>);
 pub struct Queryable(#[allow(dead_code)] zenoh::query::Queryable<()>);
 pub struct Token(#[allow(dead_code)] zenoh::liveliness::LivelinessToken);
@@ -123,13 +131,13 @@ fn open(config_json: &str) -> Result<Box<Session>, Error> {
     guarded(|| {
         zenoh::try_init_log_from_env(); // RUST_LOG=zenoh=debug shows what Zenoh does
         let config = Config::from_json5(config_json)?;
-        Ok(Box::new(Session(zenoh::open(config).wait()?)))
+        Ok(Box::new(Session { inner: zenoh::open(config).wait()?, publishers: Mutex::default() }))
     })
 }
 
 impl Session {
     fn endpoints(&self) -> Result<Vec<String>, Error> {
-        guarded(|| Ok(self.0.info().locators().wait().iter().map(|locator| locator.to_string()).collect()))
+        guarded(|| Ok(self.inner.info().locators().wait().iter().map(|locator| locator.to_string()).collect()))
     }
 
     fn publisher(&self, key: &str, settings: &ffi::PublisherSettings) -> Result<Box<Publisher>, Error> {
@@ -138,14 +146,18 @@ impl Session {
             let priority = if settings.high_priority { Priority::DataHigh } else { Priority::Data };
             // Drop, never block: one stopped client would make put() wait for seconds (docs/decisions/0001).
             let publisher = self
-                .0
+                .inner
                 .declare_publisher(key_expr(key)?)
                 .encoding(Encoding::from(settings.encoding.as_str()))
                 .congestion_control(CongestionControl::Drop)
                 .priority(priority)
                 .reliability(reliability)
                 .wait()?;
-            Ok(Box::new(Publisher(publisher)))
+            let slot = Arc::new(Mutex::new(Some(Arc::new(publisher))));
+            let mut known = self.publishers.lock().unwrap_or_else(PoisonError::into_inner);
+            known.retain(|other| other.strong_count() > 0);
+            known.push(Arc::downgrade(&slot));
+            Ok(Box::new(Publisher(slot)))
         })
     }
 
@@ -156,7 +168,7 @@ impl Session {
     ) -> Result<Box<Subscriber>, Error> {
         guarded(|| {
             let subscriber = self
-                .0
+                .inner
                 .declare_subscriber(key_expr(key_expression)?)
                 .callback(move |sample| {
                     if sample.kind() == SampleKind::Put {
@@ -171,7 +183,7 @@ impl Session {
     fn queryable(&self, key_expression: &str, handler: UniquePtr<ffi::QueryHandler>) -> Result<Box<Queryable>, Error> {
         guarded(|| {
             let queryable = self
-                .0
+                .inner
                 .declare_queryable(key_expr(key_expression)?)
                 .callback(move |query| report(|| handler.on_query(Box::new(IncomingQuery(query)))))
                 .wait()?;
@@ -180,7 +192,7 @@ impl Session {
     }
 
     fn token(&self, key: &str) -> Result<Box<Token>, Error> {
-        guarded(|| Ok(Box::new(Token(self.0.liveliness().declare_token(key_expr(key)?).wait()?))))
+        guarded(|| Ok(Box::new(Token(self.inner.liveliness().declare_token(key_expr(key)?).wait()?))))
     }
 
     fn liveliness_subscriber(
@@ -190,7 +202,7 @@ impl Session {
     ) -> Result<Box<Subscriber>, Error> {
         guarded(|| {
             let subscriber = self
-                .0
+                .inner
                 .liveliness()
                 .declare_subscriber(key_expr(key_expression)?)
                 .history(true)
@@ -210,7 +222,7 @@ impl Session {
     ) -> Result<(), Error> {
         guarded(|| {
             let sink = ReplySink(handler);
-            self.0
+            self.inner
                 .get(settings.selector.clone())
                 .payload(payload.to_vec())
                 .encoding(Encoding::from(settings.encoding.as_str()))
@@ -229,13 +241,23 @@ impl Session {
     }
 
     fn close(&self) -> Result<(), Error> {
-        guarded(|| self.0.close().wait())
+        guarded(|| {
+            let known = std::mem::take(&mut *self.publishers.lock().unwrap_or_else(PoisonError::into_inner));
+            for slot in known.iter().filter_map(Weak::upgrade) {
+                drop(slot.lock().unwrap_or_else(PoisonError::into_inner).take());
+            }
+            self.inner.close().wait()
+        })
     }
 }
 
 impl Publisher {
     fn put(&self, payload: &[u8]) -> Result<(), Error> {
-        guarded(|| self.0.put(payload.to_vec()).wait())
+        guarded(|| {
+            // Not under the lock: a subscriber of this very session is called from here, and may publish in turn.
+            let publisher = self.0.lock().unwrap_or_else(PoisonError::into_inner).clone();
+            publisher.ok_or("the session was closed")?.put(payload.to_vec()).wait()
+        })
     }
 }
 
