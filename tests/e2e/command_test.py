@@ -138,6 +138,25 @@ def test_the_web_viewer_is_served_on_loopback_until_the_view_ends(start: Start) 
         urllib.request.urlopen(page, timeout=TIMEOUT_S)
 
 
+@pytest.mark.filterwarnings("ignore:RRD file has no footer")  # its writer is ended, not asked to finish
+def test_a_view_goes_to_a_viewer_that_runs(start: Start, tmp_path: Path) -> None:
+    pytest.importorskip("rerun")
+    from rerun.chunk import RrdReader
+    from urto._viewer.outputs import ViewerProcess, free_ports
+
+    urtod = start("pyramid")
+    kept = tmp_path / "kept.rrd"
+    (port,) = free_ports(1)
+    viewer = ViewerProcess("--save", str(kept), port=port)  # a viewer without a window, which writes what it gets
+    try:
+        assert _urto(urtod.endpoint, "view", "--connect", viewer.url, "--ticks", "30") == ""
+        assert viewer.is_running()
+    finally:
+        viewer.close()
+    entities = {str(chunk.entity_path) for chunk in RrdReader(kept).stream().to_chunks()}
+    assert "/room/bodies/boxes" in entities
+
+
 def _example(name: str, *arguments: str, cwd: Path) -> str:
     environment = {**os.environ, "MPLCONFIGDIR": str(cwd / "matplotlib")}
     done = subprocess.run(
