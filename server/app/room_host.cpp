@@ -7,6 +7,13 @@
 
 namespace urto::app {
 
+std::optional<std::uint64_t> Trouble::due(std::uint64_t now_ns) {
+  const std::uint64_t count = count_;
+  if (count == reported_ || (last_ns_ && now_ns < *last_ns_ + kTroublePeriodNs)) return std::nullopt;
+  last_ns_ = now_ns;
+  return count - std::exchange(reported_, count);
+}
+
 RoomHost::RoomHost(std::unique_ptr<Room> room, Hooks hooks) : room_(std::move(room)), hooks_(std::move(hooks)) {}
 
 std::optional<std::uint64_t> RoomHost::run_once(std::uint64_t now_ns) {
@@ -14,7 +21,7 @@ std::optional<std::uint64_t> RoomHost::run_once(std::uint64_t now_ns) {
   update_members();
   run_ticks(now_ns);
   serve_requests(now_ns);
-  report_overruns(now_ns);
+  report_trouble(now_ns);
   return next_time(now_ns);
 }
 
@@ -42,7 +49,7 @@ void RoomHost::run_ticks(std::uint64_t now_ns) {
     return;
   }
   const TickSchedule::Due due = schedule_.advance(now_ns, period());
-  overruns_ += due.overruns;
+  overruns_.add(due.overruns);
   room_->add_overruns(due.overruns);
   for (std::uint32_t i = 0; i < due.ticks && !room_->paused(); ++i) tick();
 }
@@ -52,7 +59,7 @@ void RoomHost::tick() {
   TickResult result = room_->tick();
   for (Answer& answer : result.answers) send(std::move(answer));
   if (!result.events.events.empty() && !events.push(std::move(result.events))) {
-    spdlog::warn("Events were not published: their queue is full. Clients can ask for them.");
+    unpublished_.add();
   }
   if (result.frame) frames.push(std::move(result.frame));
 }
@@ -96,13 +103,22 @@ void RoomHost::serve_views(const std::vector<ViewRequest>& requests, std::uint64
   }
 }
 
-void RoomHost::report_overruns(std::uint64_t now_ns) {
-  if (overruns_ == overruns_reported_) return;
-  if (last_overrun_report_ns_ && now_ns < *last_overrun_report_ns_ + kOverrunReportPeriodNs) return;
-  spdlog::warn("The room cannot keep pace: {} ticks were given up ({} since the start). The last step took {:.2f} ms.",
-               overruns_ - overruns_reported_, overruns_, room_->world().profile().step_ms);
-  overruns_reported_ = overruns_;
-  last_overrun_report_ns_ = now_ns;
+void RoomHost::report_trouble(std::uint64_t now_ns) {
+  if (const auto count = overruns_.due(now_ns)) {
+    spdlog::warn(
+        "The room cannot keep pace: {} ticks were given up ({} since the start). The last step took {:.2f} ms.", *count,
+        overruns_.count(), room_->world().profile().step_ms);
+  }
+  if (const auto count = unpublished_.due(now_ns)) {
+    spdlog::warn("The events of {} ticks were not published, because their queue was full; clients can ask for them.",
+                 *count);
+  }
+  if (const auto count = dropped_answers_.due(now_ns)) {
+    spdlog::warn("{} answers were dropped: too many were waiting to be sent.", *count);
+  }
+  if (const auto count = unnoted_members_.due(now_ns)) {
+    spdlog::warn("{} times a member came or went unnoted: too many did at once.", *count);
+  }
 }
 
 std::optional<std::uint64_t> RoomHost::next_time(std::uint64_t now_ns) const {
@@ -148,7 +164,7 @@ void RoomHost::set_member(const Member& member, bool present) {
   {
     const std::lock_guard lock(inbox_mutex_);
     if (membership_.size() >= kMembershipChangesMax && !membership_.contains(member)) {
-      spdlog::warn("Too many members come and go at once; {} was not noted.", member.user);
+      unnoted_members_.add();
       return;
     }
     membership_[member] = present;
@@ -178,7 +194,7 @@ void RoomHost::send(OutgoingReply reply) {
   const Ticket ticket = std::visit([](const auto& each) { return each.ticket; }, reply);
   if (replies.push(std::move(reply))) return;
   hooks_.on_dropped(ticket);
-  spdlog::warn("An answer was dropped: too many are waiting to be sent.");
+  dropped_answers_.add();
 }
 
 }  // namespace urto::app

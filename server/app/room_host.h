@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -46,7 +47,21 @@ inline constexpr std::size_t kEventsPerMessageMax = 1024;
 inline constexpr std::size_t kEventsPerRecoveryMax = 4096;
 // A view copies the state of all bodies, so it is made at most this often, for all who wait.
 inline constexpr std::uint64_t kViewPeriodNs = 5'000'000;
-inline constexpr std::uint64_t kOverrunReportPeriodNs = 10'000'000'000;
+inline constexpr std::uint64_t kTroublePeriodNs = 10'000'000'000;  // between reports in the log of one kind of trouble
+
+// Counts one kind of trouble on any thread, and says now and then how often it came.
+class Trouble {
+ public:
+  void add(std::uint64_t count = 1) { count_ += count; }
+  std::uint64_t count() const { return count_; }
+  // The number since the last report, if there is one to be made.
+  std::optional<std::uint64_t> due(std::uint64_t now_ns);
+
+ private:
+  std::atomic<std::uint64_t> count_ = 0;
+  std::uint64_t reported_ = 0;
+  std::optional<std::uint64_t> last_ns_;
+};
 
 // Runs a room by a clock that is handed in. One thread calls run_once(); whatever else is said to be for any thread
 // only enqueues. What comes out goes into queues that other threads empty: the tick thread waits for nobody.
@@ -93,7 +108,7 @@ class RoomHost {
   void tick();
   void serve_requests(std::uint64_t now_ns);
   void serve_views(const std::vector<ViewRequest>& requests, std::uint64_t now_ns);
-  void report_overruns(std::uint64_t now_ns);
+  void report_trouble(std::uint64_t now_ns);
   std::optional<std::uint64_t> next_time(std::uint64_t now_ns) const;
 
   void add_request(Ticket ticket, Request request);
@@ -105,9 +120,10 @@ class RoomHost {
   TickSchedule schedule_;
   std::optional<std::uint64_t> start_ns_;
   std::optional<std::uint64_t> last_view_ns_;
-  std::uint64_t overruns_ = 0;
-  std::uint64_t overruns_reported_ = 0;
-  std::optional<std::uint64_t> last_overrun_report_ns_;
+  Trouble overruns_;
+  Trouble unpublished_;  // slices of events
+  Trouble dropped_answers_;
+  Trouble unnoted_members_;
   bool room_changed_ = true;  // tick a paused room once more
 
   mutable std::mutex inbox_mutex_;

@@ -35,10 +35,7 @@ ServerThreads::ServerThreads(Server& server, Waker& waker)
     : server_(server),
       waker_(waker),
       ticks_([this] { tick_until_stopped(); }),
-      frames_([this] {
-        while (server_.send_frame()) {
-        }
-      }),
+      frames_([this] { send_frames_until_stopped(); }),
       events_([this] {
         while (server_.send_events()) {
         }
@@ -60,12 +57,21 @@ void ServerThreads::tick_until_stopped() {
   server_.close_room();
 }
 
+void ServerThreads::send_frames_until_stopped() {
+  const auto pause = std::chrono::duration<double>(1 / (kSnapshotBurst * server_.room().settings().snapshot_rate_hz));
+  while (server_.send_frame()) {
+    std::unique_lock lock(mutex_);
+    stopped_.wait_for(lock, pause, [this] { return stopping_; });
+  }
+}
+
 void ServerThreads::stop() {
   {
     const std::lock_guard lock(mutex_);
     if (stopping_) return;
     stopping_ = true;
   }
+  stopped_.notify_all();
   server_.stop_listening();
   waker_.wake();
   for (std::thread* thread : {&ticks_, &frames_, &events_, &replies_}) thread->join();

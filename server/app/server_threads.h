@@ -26,6 +26,11 @@ class Waker {
   bool woken_ = false;
 };
 
+// Snapshots are sent at no more than this many times the rate that was asked for. A room that steps as fast as it can,
+// or at a high time scale, makes far more of them than anybody can look at; the newest wins. Twice, because at once the
+// rate the rhythm of the sender would beat with that of the ticks.
+inline constexpr double kSnapshotBurst = 2;
+
 // The threads of a server: one ticks, one sends snapshots, one events, one answers.
 class ServerThreads {
  public:
@@ -37,10 +42,12 @@ class ServerThreads {
 
  private:
   void tick_until_stopped();
+  void send_frames_until_stopped();
 
   Server& server_;
   Waker& waker_;
   std::mutex mutex_;
+  std::condition_variable stopped_;
   bool stopping_ = false;
   std::thread ticks_, frames_, events_, replies_;
 };

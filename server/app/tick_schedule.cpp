@@ -34,7 +34,7 @@ void TickSchedule::restart(std::uint64_t now_ns) {
 }
 
 std::uint64_t TickSchedule::next_ns(double period) const {
-  return last_ns_ + static_cast<std::uint64_t>(std::ceil(std::max(0.0, period - accumulated_) * kSecond));
+  return last_ns_ + static_cast<std::uint64_t>(std::llround(std::max(0.0, period - accumulated_) * kSecond));
 }
 
 }  // namespace urto::app

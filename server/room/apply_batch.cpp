@@ -68,12 +68,13 @@ class Room::Applier {
     const BodyId id = target(command.body);
     const auto body = world().body(id);
     if (!body) return tl::unexpected<Error>(body.error());
+    const double angle = bounded(body->angle, kAngleMax);
     Vec2 impulse = command.impulse;
-    if (command.in_body_frame) impulse = rotated(impulse, body->angle);
+    if (command.in_body_frame) impulse = rotated(impulse, angle);
     Status status;
     if (command.point) {
       Vec2 point = *command.point;
-      if (command.in_body_frame) point = body->position + rotated(point, body->angle);
+      if (command.in_body_frame) point = body->position + rotated(point, angle);
       status = world().apply_impulse(id, impulse, bounded(point, kCoordinateMax));
     } else {
       status = world().apply_impulse_to_center(id, impulse);

@@ -31,9 +31,9 @@ inline constexpr std::uint32_t kColorMax = 0xFFFFFF;
 inline constexpr std::uint32_t kNearestCountMax = 1024;
 inline constexpr double kTimeScaleMin = 0.01;
 inline constexpr double kTimeScaleMax = 100;
-// Far above any use and far below what overflows a float when it is squared.
-inline constexpr double kImpulseMax = 1e15;  // N·s and N·m·s
-inline constexpr double kForceMax = 1e15;    // N and N·m
+// Far above any use, and a tenth of what the engine takes: a vector that is turned into the world's frame stays below.
+inline constexpr double kImpulseMax = 1e14;  // N·s and N·m·s
+inline constexpr double kForceMax = 1e14;    // N and N·m
 inline constexpr double kDurationMax = 1e9;  // s: 32 years, and its ticks fit 64 bits at any time step
 inline constexpr double kAngleMax = 1e6;     // rad, of a teleport: a float still tells 0.06 rad apart
 
