@@ -27,6 +27,10 @@ inline constexpr double kContactHertzPerSubStepRate = 0.25;  // of the sub-steps
 // because the load reaches the ground more slowly than the preload chases it; longer, and they recover late.
 inline constexpr double kPreloadTime = 8.0;  // s
 
+// The arms of a contact follow the drift of its bodies up to this share of the shorter arm. Bodies that pass each other
+// faster have left the point that their masses were computed for, and long arms on a small body would make energy.
+inline constexpr double kDriftFraction = 0.25;
+
 // Faces that would meet over less than this are a seam: a body slides over it, it does not run into it. As a share of
 // the speculative reach; more than a resting body sinks in, less than any step that one means.
 inline constexpr double kSeamFraction = 0.25;

@@ -117,13 +117,25 @@ void Bvh<S>::refresh() const {
 template <class S>
 void Bvh<S>::find_pairs(std::span<const Proxy> moved, std::vector<std::pair<Proxy, Proxy>>& pairs) const {
   refresh();
-  for (const Proxy proxy : moved) tree_of(proxy).mark(proxy);
+  // Proxies are distinct, so this many are all.
+  const bool all_moved = moved.size() == moving_tree_.size() + still_tree_.size();
+  if (all_moved) {
+    moving_tree_.mark_all();
+    still_tree_.mark_all();
+  } else {
+    for (const Proxy proxy : moved) tree_of(proxy).mark(proxy);
+  }
   sorter_.clear();
   if (!moving_tree_.empty()) {
     TreeJoin<S>(moving_tree_, moving_tree_, sorter_).within(moving_tree_.top_level(), 0);
     if (!still_tree_.empty()) TreeJoin<S>(moving_tree_, still_tree_, sorter_).all_between();
   }
-  for (const Proxy proxy : moved) tree_of(proxy).unmark(proxy);
+  if (all_moved) {
+    moving_tree_.unmark_all();
+    still_tree_.unmark_all();
+  } else {
+    for (const Proxy proxy : moved) tree_of(proxy).unmark(proxy);
+  }
   sorter_.sort_into(static_cast<std::uint32_t>(still_.size()), pairs);
 }
 

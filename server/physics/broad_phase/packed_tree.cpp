@@ -129,6 +129,16 @@ void PackedTree<S>::unmark(Proxy proxy) {
   }
 }
 
+template <class S>
+void PackedTree<S>::mark_all() {
+  for (Level& level : levels_) std::fill(level.marks.begin(), level.marks.end(), std::uint8_t{Node::kAll});
+}
+
+template <class S>
+void PackedTree<S>::unmark_all() {
+  for (Level& level : levels_) std::fill(level.marks.begin(), level.marks.end(), std::uint8_t{0});
+}
+
 // Adds an empty group at the end of level 0, and the nodes that it needs above.
 template <class S>
 void PackedTree<S>::append_group() {

@@ -31,6 +31,7 @@ class PackedTree {
   void refresh();
 
   bool empty() const { return count_ == 0; }
+  std::uint32_t size() const { return count_; }
   std::uint32_t top_level() const { return static_cast<std::uint32_t>(levels_.size()) - 1; }
   const Node& node(std::uint32_t level, std::uint32_t index) const { return levels_[level].nodes[index]; }
   Proxy proxy(std::uint32_t group, int lane) const { return proxies_[group * 4 + static_cast<std::uint32_t>(lane)]; }
@@ -39,6 +40,8 @@ class PackedTree {
   // marked. All clear between searches.
   void mark(Proxy proxy);
   void unmark(Proxy proxy);
+  void mark_all();
+  void unmark_all();
   std::uint32_t marks(std::uint32_t level, std::uint32_t index) const { return levels_[level].marks[index]; }
 
   // Calls visit(proxy, bounds) for each proxy under boxes that `mask_of(node)` selects, by a bit a lane.

@@ -27,9 +27,10 @@ struct alignas(64) ContactBlock {
   S nx[kLanes<S>], ny[kLanes<S>];
   S friction[kLanes<S>], restitution[kLanes<S>];
   S inv_mass_a[kLanes<S>], inv_inertia_a[kLanes<S>], inv_mass_b[kLanes<S>], inv_inertia_b[kLanes<S>];
-  S share_a[kLanes<S>];   // how much of the drift of the two centres is a's, see contact_kernels.cpp
-  S coupling[kLanes<S>];  // 1/kg: how an impulse at one point moves the other
-  S two[kLanes<S>];       // 1 if the contact has two points, 0 if one
+  S share_a[kLanes<S>];     // how much of the drift of the two centres is a's, see contact_kernels.cpp
+  S drift2_max[kLanes<S>];  // m²: squared drift up to which the arms follow it
+  S coupling[kLanes<S>];    // 1/kg: how an impulse at one point moves the other
+  S two[kLanes<S>];         // 1 if the contact has two points, 0 if one
   PointLanes<S> points[2];
   std::uint32_t a[kLanes<S>], b[kLanes<S>];  // body slots; 0 in unused lanes
   std::uint32_t contact[kLanes<S>];

@@ -87,6 +87,7 @@ struct Lanes {
   std::size_t lane;
   Motions<S> a, b;
   V nx, ny, im_a, ii_a, im_b, ii_b, share_a, share_b, driftx, drifty;
+  V shiftx, shifty;  // of the arms: the drift, unless it is too long
 
   HWY_INLINE Lanes(const Motion<S>* motions, ContactBlock<S>& from, std::size_t first) : block(from), lane(first) {
     load_velocities(motions, block.a + lane, a);
@@ -103,6 +104,10 @@ struct Lanes {
     share_b = hn::Sub(set(S(1)), share_a);
     driftx = hn::Sub(b.dx, a.dx);
     drifty = hn::Sub(b.dy, a.dy);
+    const auto drift2 = hn::Add(hn::Mul(driftx, driftx), hn::Mul(drifty, drifty));
+    const auto follow = hn::Le(drift2, load(block.drift2_max + lane));
+    shiftx = hn::IfThenElseZero(follow, driftx);
+    shifty = hn::IfThenElseZero(follow, drifty);
   }
   HWY_INLINE void store_to(Motion<S>* motions) const {
     store_velocities(a, motions, block.a + lane, block.movable_a + lane);
@@ -112,15 +117,16 @@ struct Lanes {
 
 // The lever arms of a point now. Both bodies have moved by different amounts since the point was found; were the arms
 // frozen, the two halves of an impulse would act at different world points and angular momentum would be made from
-// nothing. So the drift of the centres is shared out between the arms, more of it to the heavier body's.
+// nothing. So the drift of the centres is shared out between the arms, more of it to the heavier body's, unless the
+// bodies race past each other (kDriftFraction).
 template <class S>
 struct Arms {
   Vector<S> ax, ay, bx, by;
   HWY_INLINE Arms(const Lanes<S>& k, const PointLanes<S>& p)
-      : ax(hn::Add(load(p.ax + k.lane), hn::Mul(k.share_a, k.driftx))),
-        ay(hn::Add(load(p.ay + k.lane), hn::Mul(k.share_a, k.drifty))),
-        bx(hn::Sub(load(p.bx + k.lane), hn::Mul(k.share_b, k.driftx))),
-        by(hn::Sub(load(p.by + k.lane), hn::Mul(k.share_b, k.drifty))) {}
+      : ax(hn::Add(load(p.ax + k.lane), hn::Mul(k.share_a, k.shiftx))),
+        ay(hn::Add(load(p.ay + k.lane), hn::Mul(k.share_a, k.shifty))),
+        bx(hn::Sub(load(p.bx + k.lane), hn::Mul(k.share_b, k.shiftx))),
+        by(hn::Sub(load(p.by + k.lane), hn::Mul(k.share_b, k.shifty))) {}
 };
 
 template <class S>
@@ -164,6 +170,14 @@ HWY_INLINE void prepare_point(Lanes<S>& k, PointLanes<S>& p) {
   store(relative_velocity(k, r, k.nx, k.ny), p.approach + i);
 }
 
+// m², the shorter of a point's two arms.
+template <class S>
+HWY_INLINE Vector<S> shortest_arm2(const Lanes<S>& k, const PointLanes<S>& p) {
+  const auto ax = load(p.ax + k.lane), ay = load(p.ay + k.lane), bx = load(p.bx + k.lane), by = load(p.by + k.lane);
+  const auto a2 = hn::Add(hn::Mul(ax, ax), hn::Mul(ay, ay)), b2 = hn::Add(hn::Mul(bx, bx), hn::Mul(by, by));
+  return hn::IfThenElse(hn::Lt(b2, a2), b2, a2);
+}
+
 template <class S>
 HWY_INLINE void prepare_lanes(Lanes<S>& k) {
   const std::size_t i = k.lane;
@@ -172,6 +186,10 @@ HWY_INLINE void prepare_lanes(Lanes<S>& k) {
   store(k.share_a, k.block.share_a + i);
   prepare_point(k, p);
   prepare_point(k, q);
+  const auto arm2 = shortest_arm2(k, p);
+  const auto second = hn::IfThenElse(hn::Gt(load(k.block.two + i), hn::Zero(Tag<S>())), shortest_arm2(k, q), arm2);
+  store(hn::Mul(set(S(kDriftFraction * kDriftFraction)), hn::IfThenElse(hn::Lt(second, arm2), second, arm2)),
+        k.block.drift2_max + i);
   const auto pa = lever(load(p.ax + i), load(p.ay + i), k.nx, k.ny), pb = lever(load(p.bx + i), load(p.by + i), k.nx, k.ny);
   const auto qa = lever(load(q.ax + i), load(q.ay + i), k.nx, k.ny), qb = lever(load(q.bx + i), load(q.by + i), k.nx, k.ny);
   const auto turning = hn::Add(hn::Mul(hn::Mul(k.ii_a, pa), qa), hn::Mul(hn::Mul(k.ii_b, pb), qb));
