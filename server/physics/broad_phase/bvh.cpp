@@ -117,24 +117,21 @@ void Bvh<S>::refresh() const {
 template <class S>
 void Bvh<S>::find_pairs(std::span<const Proxy> moved, std::vector<std::pair<Proxy, Proxy>>& pairs) const {
   refresh();
-  // Proxies are distinct, so this many are all.
-  const bool all_moved = moved.size() == moving_tree_.size() + still_tree_.size();
-  if (all_moved) {
-    moving_tree_.mark_all();
-    still_tree_.mark_all();
-  } else {
-    for (const Proxy proxy : moved) tree_of(proxy).mark(proxy);
+  std::size_t moved_count = 0;  // of the moving tree
+  for (const Proxy proxy : moved) moved_count += still_[proxy] == 0 ? 1 : 0;
+  const bool all_moved = moved_count != 0 && moved_count == moving_tree_.size();
+  if (all_moved) moving_tree_.mark_all();
+  for (const Proxy proxy : moved) {
+    if (!all_moved || still_[proxy] != 0) tree_of(proxy).mark(proxy);
   }
   sorter_.clear();
   if (!moving_tree_.empty()) {
     TreeJoin<S>(moving_tree_, moving_tree_, sorter_).within(moving_tree_.top_level(), 0);
     if (!still_tree_.empty()) TreeJoin<S>(moving_tree_, still_tree_, sorter_).all_between();
   }
-  if (all_moved) {
-    moving_tree_.unmark_all();
-    still_tree_.unmark_all();
-  } else {
-    for (const Proxy proxy : moved) tree_of(proxy).unmark(proxy);
+  if (all_moved) moving_tree_.unmark_all();
+  for (const Proxy proxy : moved) {
+    if (!all_moved || still_[proxy] != 0) tree_of(proxy).unmark(proxy);
   }
   sorter_.sort_into(static_cast<std::uint32_t>(still_.size()), pairs);
 }

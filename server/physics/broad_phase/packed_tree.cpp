@@ -131,7 +131,13 @@ void PackedTree<S>::unmark(Proxy proxy) {
 
 template <class S>
 void PackedTree<S>::mark_all() {
-  for (Level& level : levels_) std::fill(level.marks.begin(), level.marks.end(), std::uint8_t{Node::kAll});
+  std::size_t children = slots_end_;
+  for (Level& level : levels_) {
+    std::fill(level.marks.begin(), level.marks.end(), std::uint8_t{Node::kAll});
+    // The last node may have fewer than four.
+    level.marks.back() = static_cast<std::uint8_t>(Node::kAll >> (3 - (children - 1) % 4));
+    children = level.nodes.size();
+  }
 }
 
 template <class S>

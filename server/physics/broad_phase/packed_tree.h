@@ -40,7 +40,7 @@ class PackedTree {
   // marked. All clear between searches.
   void mark(Proxy proxy);
   void unmark(Proxy proxy);
-  void mark_all();
+  void mark_all();  // not of an empty tree
   void unmark_all();
   std::uint32_t marks(std::uint32_t level, std::uint32_t index) const { return levels_[level].marks[index]; }
 
