@@ -220,9 +220,10 @@ def test_contacts_and_their_events(start: Start) -> None:
         # At rest the floor gives back the weight: m g dt in each tick.
         assert contacts.normal_impulse[touching].sum() == pytest.approx(3 * 8 * TIME_STEP, rel=0.02)
         begin = _wait_for(room, urto.ContactBegin, sensor=False)
-        assert {begin.body_a, begin.body_b} == {floor.id, box.id}  # type: ignore[union-attr]
+        assert isinstance(begin, urto.ContactBegin)
+        assert {begin.body_a, begin.body_b} == {floor.id, box.id}
         # Dropped from 0.5 m: v = sqrt(2 g h), less at most one step of gravity.
-        assert begin.approach_speed == pytest.approx((2 * 8 * 0.5) ** 0.5, abs=8 * TIME_STEP)  # type: ignore[union-attr]
+        assert begin.approach_speed == pytest.approx((2 * 8 * 0.5) ** 0.5, abs=8 * TIME_STEP)
         since = [event for event in room.events(since=1, timeout=0.5) if isinstance(event, urto.ContactBegin)]
         assert {gate.id, box.id} in [{event.body_a, event.body_b} for event in since if event.sensor]
         box.set_transform((0, 9))

@@ -72,5 +72,6 @@ def test_nonsense_is_told_before_it_is_sent(description: object, text: str) -> N
 
 
 def test_numpy_vectors_serve() -> None:
-    message = body_to_proto(urto.Circle(radius=np.float32(0.5), position=np.array([1.0, 2.0])))  # type: ignore[arg-type]
+    circle = urto.Circle(radius=np.float32(0.5), position=np.array([1.0, 2.0]))  # type: ignore[arg-type]
+    message = body_to_proto(circle)
     assert (message.position.y, message.shapes[0].circle.radius) == (2, 0.5)

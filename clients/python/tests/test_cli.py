@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -12,8 +13,11 @@ from support.fake_room import FakeRoom, Running
 from urto import _cli
 
 
+Call = Callable[..., tuple[int, str, str]]
+
+
 @pytest.fixture
-def call(fake: FakeRoom, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch):  # type: ignore[no-untyped-def]
+def call(fake: FakeRoom, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Call:
     monkeypatch.setattr("signal.signal", lambda *_: None)
     monkeypatch.setenv("URTO_ENDPOINT", fake.endpoint)
 
@@ -25,11 +29,11 @@ def call(fake: FakeRoom, capsys: pytest.CaptureFixture[str], monkeypatch: pytest
     return run
 
 
-def test_rooms(call) -> None:  # type: ignore[no-untyped-def]
+def test_rooms(call: Call) -> None:
     assert call("rooms") == (0, "demo\n", "")
 
 
-def test_info(call) -> None:  # type: ignore[no-untyped-def]
+def test_info(call: Call) -> None:
     code, out, _ = call("info", "--user", "anna")
     assert code == 0
     assert "room       demo (Urto 0.1.0" in out
@@ -37,7 +41,7 @@ def test_info(call) -> None:  # type: ignore[no-untyped-def]
     assert json.loads(call("info", "--json")[1])["time_step"] == 1 / 64
 
 
-def test_spawn_and_push_by_name_and_id(call, fake: FakeRoom) -> None:  # type: ignore[no-untyped-def]
+def test_spawn_and_push_by_name_and_id(call: Call, fake: FakeRoom) -> None:
     assert call("spawn", "box", "1", "2", "--at", "-3", "-4.5", "--name", "crate", "--mass", "2") == (0, "1\n", "")
     assert call("spawn", "circle", "0.5", "--color", "ff0000") == (0, "2\n", "")
     assert call("spawn", "polygon", "0", "0", "1", "0", "0", "1", "--type", "static") == (0, "3\n", "")
@@ -48,7 +52,7 @@ def test_spawn_and_push_by_name_and_id(call, fake: FakeRoom) -> None:  # type: i
     assert (fake.bodies[1]["vx"], fake.bodies[1]["vy"]) == (-1, -2.5)
 
 
-def test_time(call, fake: FakeRoom) -> None:  # type: ignore[no-untyped-def]
+def test_time(call: Call, fake: FakeRoom) -> None:
     assert call("step", "5") == (0, "tick 5\n", "")
     assert call("resume") == (0, "tick 5\n", "")
     assert call("step")[0] == _cli.EXIT_REJECTED
@@ -56,7 +60,7 @@ def test_time(call, fake: FakeRoom) -> None:  # type: ignore[no-untyped-def]
     assert call("reset") == (0, "epoch 2\n", "")
 
 
-def test_echo(call, fake: FakeRoom) -> None:  # type: ignore[no-untyped-def]
+def test_echo(call: Call, fake: FakeRoom) -> None:
     call("spawn", "circle", "1")
     with Running(fake):
         code, out, _ = call("echo", "--count", "2")
@@ -68,7 +72,7 @@ def test_echo(call, fake: FakeRoom) -> None:  # type: ignore[no-untyped-def]
     assert (code, out.split(" tick ")[1].split(" ", 1)[1].split(",")[0]) == (0, "MemberJoined: user anna")
 
 
-def test_errors_are_one_line_with_an_exit_code(call) -> None:  # type: ignore[no-untyped-def]
+def test_errors_are_one_line_with_an_exit_code(call: Call) -> None:
     for arguments, expected, text in (
         (("info", "--endpoint", "tcp/127.0.0.1:1", "--timeout", "0.2"), _cli.EXIT_UNREACHABLE, "no Urto server"),
         (("info", "--room", "nowhere"), _cli.EXIT_UNREACHABLE, "no room 'nowhere'"),
@@ -86,7 +90,7 @@ def test_errors_are_one_line_with_an_exit_code(call) -> None:  # type: ignore[no
     assert usage.value.code == _cli.EXIT_USAGE
 
 
-def test_view_saves(call, fake: FakeRoom, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
+def test_view_saves(call: Call, fake: FakeRoom, tmp_path: Path) -> None:
     pytest.importorskip("rerun")
     call("spawn", "circle", "1")
     picture = tmp_path / "p.png"

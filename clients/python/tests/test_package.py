@@ -23,7 +23,8 @@ def test_all_names_what_is_there_and_nothing_else() -> None:
 
 
 def test_the_drawn_exception_tree_is_the_real_one() -> None:
-    drawn = [line.split("──")[-1].split()[0] for line in inspect.getdoc(_exceptions).splitlines() if "── " in line]  # type: ignore[union-attr]
+    tree = inspect.getdoc(_exceptions) or ""
+    drawn = [line.split("──")[-1].split()[0] for line in tree.splitlines() if "── " in line]
     real = {
         name for name, kind in vars(_exceptions).items() if inspect.isclass(kind) and issubclass(kind, urto.UrtoError)
     }
@@ -36,7 +37,8 @@ def test_every_rejection_of_the_schema_has_its_exception() -> None:
 
     codes = {name.removeprefix("REJECTION_CODE_") for name in command_pb2.RejectionCode.keys()} - {"UNSPECIFIED"}
     assert codes == set(_exceptions._REJECTIONS)
-    unknown = command_pb2.CommandReply(rejection=command_pb2.Rejection(code=99, message="new"))  # type: ignore[arg-type]
+    rejection = command_pb2.Rejection(code=99, message="new")  # type: ignore[arg-type]
+    unknown = command_pb2.CommandReply(rejection=rejection)
     error = _exceptions.rejection_from_proto(unknown)
     assert (type(error), error.code) == (urto.Rejected, "99")
 

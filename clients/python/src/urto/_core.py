@@ -129,7 +129,8 @@ def _in_thread(function: Callable[[], Any]) -> Future[Any]:
         try:
             result = function()
         except BaseException as error:
-            future.set_exception(error)
+            if future.set_running_or_notify_cancel():
+                future.set_exception(error)
             return
         if future.set_running_or_notify_cancel():
             future.set_result(result)

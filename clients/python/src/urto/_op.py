@@ -34,6 +34,7 @@ def run(op: Op[T]) -> T:
             try:
                 value = wait.future.result(wait.timeout)
             except BaseException as error:  # also KeyboardInterrupt: the operation may have to clean up
+                wait.future.cancel()  # nobody waits for it any more
                 wait = op.throw(error)
             else:
                 wait = op.send(value)
