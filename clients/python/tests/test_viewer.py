@@ -146,9 +146,15 @@ def test_the_picture_shows_bodies_where_they_are(room: urto.Room, fake: FakeRoom
     assert color_at(0.3, 3.3) == BACKGROUND
 
 
-def test_a_paused_room_is_shown_too(room: urto.Room, tmp_path: Path) -> None:
+def test_a_paused_room_is_shown_too(room: urto.Room, fake: FakeRoom, tmp_path: Path) -> None:
     _furnish(room)
-    view(room, ViewOptions(save=tmp_path, seconds=0.01), print)
+
+    def say(line: str) -> None:
+        if line.startswith("recording"):
+            fake.emit(room_paused={"user": "anna"})
+
+    view(room, ViewOptions(save=tmp_path, seconds=0.6), say)
+    assert any("RoomPaused" in text[0] for _, text in _values(tmp_path / "room.rrd", "/events", "TextLog:text"))
     assert _values(tmp_path / "room.rrd", "/room/bodies/boxes", "Boxes3D:centers")
     assert (tmp_path / "room.png").stat().st_size > 0
 

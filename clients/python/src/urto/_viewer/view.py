@@ -176,6 +176,12 @@ class _View:
             return
         self._log_frame(frame)
 
+    def show_events(self) -> None:
+        """Logs what has happened since the last frame, in a room that stands still."""
+        assert self.frame is not None
+        self._log.set_time(self.frame)
+        self._log_events()
+
     def _take_state(self, state: RoomState) -> None:
         self.shapes = ShapeSet(state.bodies)
         if state.frame.epoch != self._epoch:
@@ -288,6 +294,7 @@ def _follow(room: Room, options: ViewOptions, outputs: _Outputs, shown: _View) -
         try:
             frame = next(frames)
         except RequestTimeout:
+            shown.show_events()
             continue
         finished = options.ticks is not None and frame.tick >= first_tick + options.ticks
         now = time.monotonic()
