@@ -240,7 +240,7 @@ TYPED_TEST(TimeOfImpactTest, RandomShots) {
     }
     return shot;
   });
-  EXPECT_GT(tally.hits, 3000);
+  EXPECT_GT(tally.hits, 2000);
   EXPECT_GT(tally.separated, 3000);
   EXPECT_GT(tally.overlapped, 300);
 }
