@@ -161,7 +161,7 @@ set_up_server() {
   ensure_cargo
   [ -f "$ROOT/build/release/build.ninja" ] || configure release -DURTO_BUILD_TESTS=OFF
   if [ ! -x "$URTOD" ]; then
-    say "Building the server; the first time takes about ten minutes on two cores, most of them for Zenoh"
+    say "Building the server; the first time takes minutes, most of them for Zenoh"
   fi
   build release urtod
 }
