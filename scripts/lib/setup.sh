@@ -132,7 +132,7 @@ readonly BUILD_PACKAGES=(ca-certificates g++ cmake ninja-build protobuf-compiler
   libxxhash-dev libhwy-dev libspdlog-dev libcli11-dev)
 readonly TEST_PACKAGES=(libgtest-dev libgmock-dev)
 readonly PICTURE_PACKAGES=(mesa-vulkan-drivers libvulkan1)  # Rerun draws without a screen by software Vulkan
-readonly WINDOW_PACKAGES=(mesa-vulkan-drivers libvulkan1 libxkbcommon-x11-0 libgl1)
+readonly WINDOW_PACKAGES=(mesa-vulkan-drivers libvulkan1 libxkbcommon-x11-0 libx11-xcb1 libxcursor1 libxi6 libxrandr2)  # what a window loads
 
 # configure PRESET [OPTION…]: once; ninja itself configures again when a CMake file changes.
 configure() {
