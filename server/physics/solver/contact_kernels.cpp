@@ -1,14 +1,14 @@
 // Highway compiles this file once for each instruction set. Our own headers come first: what is first seen from within
 // a system header is left out of the dependencies that the compiler writes.
+#include "physics/solver/contact_kernels.h"
+
 #include <cstring>
 
 #include "physics/constants.h"
-#include "physics/solver/contact_kernels.h"
 
 // A few builds of these kernels are enough: the oldest processors, and each doubling of the width. Vectors of a length
 // unknown to the compiler (SVE) cannot be members of a struct.
-#define HWY_DISABLED_TARGETS \
-  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "physics/solver/contact_kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -190,8 +190,10 @@ HWY_INLINE void prepare_lanes(Lanes<S>& k) {
   const auto second = hn::IfThenElse(hn::Gt(load(k.block.two + i), hn::Zero(Tag<S>())), shortest_arm2(k, q), arm2);
   store(hn::Mul(set(S(kDriftFraction * kDriftFraction)), hn::IfThenElse(hn::Lt(second, arm2), second, arm2)),
         k.block.drift2_max + i);
-  const auto pa = lever(load(p.ax + i), load(p.ay + i), k.nx, k.ny), pb = lever(load(p.bx + i), load(p.by + i), k.nx, k.ny);
-  const auto qa = lever(load(q.ax + i), load(q.ay + i), k.nx, k.ny), qb = lever(load(q.bx + i), load(q.by + i), k.nx, k.ny);
+  const auto pa = lever(load(p.ax + i), load(p.ay + i), k.nx, k.ny),
+             pb = lever(load(p.bx + i), load(p.by + i), k.nx, k.ny);
+  const auto qa = lever(load(q.ax + i), load(q.ay + i), k.nx, k.ny),
+             qb = lever(load(q.bx + i), load(q.by + i), k.nx, k.ny);
   const auto turning = hn::Add(hn::Mul(hn::Mul(k.ii_a, pa), qa), hn::Mul(hn::Mul(k.ii_b, pb), qb));
   store(hn::Add(hn::Add(k.im_a, k.im_b), turning), k.block.coupling + i);
 }
@@ -324,8 +326,8 @@ template <class S>
 HWY_INLINE Vector<S> leaving_speed(const Lanes<S>& k, const PointLanes<S>& p, const PassSettings<S>& settings) {
   const auto zero = hn::Zero(Tag<S>());
   const auto approach = load(p.approach + k.lane);
-  const auto bounces = hn::And(hn::Le(approach, set(-settings.threshold)),
-                               hn::Gt(load(p.total_normal_impulse + k.lane), zero));
+  const auto bounces =
+      hn::And(hn::Le(approach, set(-settings.threshold)), hn::Gt(load(p.total_normal_impulse + k.lane), zero));
   return hn::IfThenElseZero(bounces, hn::Mul(load(k.block.restitution + k.lane), hn::Sub(zero, approach)));
 }
 

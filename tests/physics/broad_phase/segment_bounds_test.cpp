@@ -16,9 +16,9 @@ TYPED_TEST_SUITE(SegmentBoundsTest, Scalars);
 TYPED_TEST(SegmentBoundsTest, GrazesCornersAndEdges) {
   using V = Vec<TypeParam>;
   const Aabb<TypeParam> box{V(0, 0), V(2, 1)};
-  EXPECT_TRUE(SegmentBounds<TypeParam>(V(-1, 1), V(4, 0)).meets(box));   // along an edge
-  EXPECT_TRUE(SegmentBounds<TypeParam>(V(-1, 2), V(2, -2)).meets(box));  // through the corner (0, 1)
-  EXPECT_TRUE(SegmentBounds<TypeParam>(V(-1, 0), V(1, 0)).meets(box));   // ends at the corner (0, 0)
+  EXPECT_TRUE(SegmentBounds<TypeParam>(V(-1, 1), V(4, 0)).meets(box));                // along an edge
+  EXPECT_TRUE(SegmentBounds<TypeParam>(V(-1, 2), V(2, -2)).meets(box));               // through the corner (0, 1)
+  EXPECT_TRUE(SegmentBounds<TypeParam>(V(-1, 0), V(1, 0)).meets(box));                // ends at the corner (0, 0)
   EXPECT_FALSE(SegmentBounds<TypeParam>(V(-1, TypeParam(0.1)), V(2, 2)).meets(box));  // past the corner (0, 1)
   EXPECT_FALSE(SegmentBounds<TypeParam>(V(3, 0), V(0, 1)).meets(box));
 }
