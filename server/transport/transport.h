@@ -21,12 +21,14 @@ using QueryCallback = std::function<void(Query query)>;
 using LivelinessCallback = std::function<void(std::string_view key, bool alive)>;
 
 enum class Reliability { kReliable, kBestEffort };
-enum class Priority { kNormal, kHigh };  // a queue of its own each; no order between the two
+// A queue of its own each; no order between the two. Answers to queries use kNormal, so what is published with kHigh
+// does not wait behind a large answer that its asker does not read (docs/decisions/0001).
+enum class Priority { kNormal, kHigh };
 
 struct PublisherOptions {
   std::string encoding;  // e.g. "application/protobuf;schema=urto.v1.Snapshot"; empty: raw bytes
   Reliability reliability = Reliability::kReliable;
-  Priority priority = Priority::kNormal;
+  Priority priority = Priority::kHigh;
 };
 
 // The right to publish on one key. Destroying it ends it.

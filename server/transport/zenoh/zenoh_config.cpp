@@ -99,6 +99,11 @@ std::string size_filter_json(const ZenohOptions& options) {
          std::to_string(options.message_bytes_max) + "}]";
 }
 
+// An answer goes with the priority of its query. It may not be the askers who choose the queue of our publications.
+constexpr std::string_view kQueryPriority =
+    "{\"network\": [{\"id\": \"answers\", \"flows\": [\"ingress\"], \"messages\": [\"query\"], "
+    "\"overwrite\": {\"priority\": \"data\"}}]}";
+
 bool has(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
 
 // The endpoint that the message is about, or all of them.
@@ -132,7 +137,7 @@ TransportExpected<std::string> zenoh_config_json(const ZenohOptions& options) {
          "},\n  \"scouting\": {\"multicast\": {\"enabled\": false}, \"gossip\": {\"enabled\": false}},\n"
          "  \"adminspace\": {\"enabled\": false},\n  \"transport\": " +
          transport_json(options) + ",\n  \"low_pass_filter\": " + size_filter_json(options) +
-         ",\n  \"access_control\": " + access_control + "}";
+         ",\n  \"qos\": " + std::string(kQueryPriority) + ",\n  \"access_control\": " + access_control + "}";
 }
 
 TransportError open_error(const ZenohOptions& options, std::string_view zenoh_message) {
