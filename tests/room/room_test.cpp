@@ -301,7 +301,8 @@ TEST(Room, ResetRebuildsTheScene) {
   const std::uint64_t hash = driver.room->world().state_hash();
   const auto ids = [&] {
     std::vector<BodyId> found;
-    for (const BodyInfo& body : driver.room->view({true, false})->bodies) found.push_back(body.record->id);
+    const auto view = driver.room->view({true, false});
+    for (const BodyInfo& body : view->bodies) found.push_back(body.record->id);
     return found;
   };
   const std::vector<BodyId> before = ids();
