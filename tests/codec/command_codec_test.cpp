@@ -128,7 +128,7 @@ INSTANTIATE_TEST_SUITE_P(
         {"HalfRegion", "query { region { lower {} } }", RejectionCode::kMalformed, "query.region.upper"},
         {"BodyQueryOfNothing", "query { body {} }", RejectionCode::kMalformed, "query.body.body"},
     }),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& each) { return each.param.name; });
 
 TEST(CommandCodec, FieldsOfANewerSchemaAreNotOverlooked) {
   v1::CommandBatch batch;

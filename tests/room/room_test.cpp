@@ -187,7 +187,7 @@ INSTANTIATE_TEST_SUITE_P(
          "query.nearest.count_max"},
         {"UnknownBodyQuery", RoomQuery(BodyQuery{"nobody"}), RejectionCode::kUnknownBody, "query.body.body.name"},
     }),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& each) { return each.param.name; });
 
 TEST(Room, EmptyAndOversizedBatchesAreRejected) {
   RoomDriver driver;
