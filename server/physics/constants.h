@@ -50,6 +50,9 @@ inline constexpr double kFastFraction = 0.75;
 inline constexpr double kImpactTargetFraction = 0.25;
 inline constexpr double kImpactToleranceFraction = 0.05;
 
+// Nearer to an attractor's centre than this its pull grows no more: at the centre itself the law has no finite value.
+inline constexpr double kAttractionDistanceMin = 1e-3;  // m
+
 // Above this count of shapes a tree beats the comparison of all pairs (bench/README.md).
 inline constexpr unsigned kBruteForceShapesMax = 24;
 

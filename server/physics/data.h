@@ -54,9 +54,10 @@ struct WorldData {
   std::unique_ptr<BroadPhase<S>> broad_phase;
   PairSet pair_set;
 
-  // Of the last step.
+  // The first `events_reported` are those of the last step; the rest came since (of bodies that were removed) and will
+  // be those of the next.
   std::vector<ContactEvent> events;
-  double penetration_max = 0;
+  std::size_t events_reported = 0;
 
   Scratch<S> scratch;
 

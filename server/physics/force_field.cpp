@@ -20,8 +20,8 @@ double field_potential(const std::vector<ForceField>& fields, const Vec2& positi
   for (const ForceField& field : fields) {
     if (const auto* f = std::get_if<PointAttractor>(&field)) {
       const Vec2 r = f->center - position;
-      const double d2 = dot<double>(r, r) + f->softening * f->softening;
-      if (d2 > 0) sum -= mass * f->strength / std::sqrt(d2);
+      const double least = kAttractionDistanceMin * kAttractionDistanceMin;
+      sum -= mass * f->strength / std::sqrt(max_of(dot<double>(r, r) + f->softening * f->softening, least));
     } else if (const auto* s = std::get_if<Spring>(&field)) {
       const Vec2 r = position - s->center;
       sum += 0.5 * s->stiffness * dot<double>(r, r);

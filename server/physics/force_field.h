@@ -1,5 +1,6 @@
 #pragma once
 
+#include "physics/constants.h"
 #include "physics/data.h"
 
 namespace urto {
@@ -29,8 +30,8 @@ struct Fields {
     Vec<S> a = Vec<S>::Zero();
     for (const Attractor& f : attractors) {
       const Vec<S> r = f.center - x;
-      const S d2 = dot<S>(r, r) + f.softening_squared;
-      if (d2 > S(0)) a += r * (f.strength / (d2 * std::sqrt(d2)));
+      const S d2 = max_of(dot<S>(r, r) + f.softening_squared, S(kAttractionDistanceMin * kAttractionDistanceMin));
+      a += r * (f.strength / (d2 * std::sqrt(d2)));
     }
     for (const Dragging& f : drags) a -= v * ((f.linear + f.quadratic * length<S>(v)) * inv_mass);
     for (const Springing& f : springs) a -= ((x - f.center) * f.stiffness + v * f.damping) * inv_mass;

@@ -187,7 +187,6 @@ void rebuild(WorldData<S>& world) {
     if (world.bodies[slot].alive()) count_needs(world, slot, +1);
   world.broad_phase.reset();
   update_model(world);
-  world.events.clear();
 }
 
 }  // namespace

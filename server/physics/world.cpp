@@ -91,7 +91,7 @@ void WorldOf<S>::run(Phase phase, PhaseFunction&& function) {
 template <class S>
 void WorldOf<S>::step() {
   profile_ = Profile{};
-  data_.events.clear();
+  data_.events.erase(data_.events.begin(), data_.events.begin() + static_cast<std::ptrdiff_t>(data_.events_reported));
   run(Phase::kUpdateBroadPhase, [&] { update_broad_phase(data_); });
   run(Phase::kUpdateContacts, [&] { update_contacts(data_); });
   run(Phase::kSolve, [&] { solve(); });
@@ -103,6 +103,7 @@ void WorldOf<S>::step() {
     report_contact_events(data_);
     if (data_.model.sleeping) update_sleep(data_);
   });
+  data_.events_reported = data_.events.size();
   ++data_.step_count;
 }
 

@@ -150,7 +150,7 @@ class World {
   // Views of the world as it is.
   virtual void capture(BodyColumns& out, bool include_static) const = 0;
   virtual std::vector<ContactPoint> contacts() const = 0;
-  // Of the last step, in a fixed order.
+  // Of the last step, in a fixed order; first those of bodies that were removed since the step before.
   virtual std::span<const ContactEvent> contact_events() const = 0;
   virtual Energy energy() const = 0;
   virtual Counters counters() const = 0;

@@ -34,7 +34,9 @@ class WorldOf final : public World {
 
   void capture(BodyColumns& out, bool include_static) const override;
   std::vector<ContactPoint> contacts() const override;
-  std::span<const ContactEvent> contact_events() const override { return data_.events; }
+  std::span<const ContactEvent> contact_events() const override {
+    return std::span(data_.events).first(data_.events_reported);
+  }
   Energy energy() const override;
   Counters counters() const override;
   Profile profile() const override { return profile_; }

@@ -102,6 +102,18 @@ TEST(ForceFieldTest, AttractorHoldsACircularOrbit) {
   EXPECT_NEAR(world->energy().kinetic + world->energy().potential, energy, 1e-9 * std::abs(energy));
 }
 
+TEST(ForceFieldTest, TheCentreOfAnAttractorIsNoHole) {
+  for (const Precision precision : {Precision::kFloat, Precision::kDouble}) {
+    WorldSettings settings = settings_for(precision);
+    settings.gravity = {0, 0};
+    settings.fields.push_back(PointAttractor{{0, 0}, 40, 0});
+    auto world = make_world(settings);
+    for (int i = 0; i < 3; ++i) add(*world, box_body(1e-12 * i, 1e-20, 0.01, 0.01));
+    step_for(*world, 2);
+    EXPECT_TRUE(std::isfinite(world->energy().kinetic));
+  }
+}
+
 TEST(ForceFieldTest, DragSlowsByItsLaw) {
   WorldSettings settings = flight_settings(Integrator::kRungeKutta4);
   settings.gravity = {0, 0};

@@ -180,6 +180,19 @@ TEST_P(WorldTest, ContactEventsComeInPairsWithPointAndSpeed) {
   EXPECT_TRUE(world_->contains(ball));
 }
 
+TEST_P(WorldTest, RemovingABodyEndsItsContacts) {
+  add(*world_, floor_body());
+  const BodyId id = add(*world_, box_body(0, 0.5));
+  step_for(*world_, 1);
+  ASSERT_TRUE(world_->remove_body(id));
+  world_->step();
+  ASSERT_EQ(world_->contact_events().size(), 1u);
+  EXPECT_EQ(world_->contact_events()[0].kind, ContactEvent::Kind::kEnd);
+  EXPECT_TRUE(world_->contact_events()[0].body_a == id || world_->contact_events()[0].body_b == id);
+  world_->step();
+  EXPECT_TRUE(world_->contact_events().empty());
+}
+
 TEST_P(WorldTest, RemovingASupportWakesAndDropsWhatLay) {
   add(*world_, floor_body());
   const BodyId lower = add(*world_, box_body(0, 0.5));
