@@ -94,7 +94,20 @@ void Mover<S>::fly(const Body<S>& body, Motion<S>& motion) const {
 }
 
 template <class S>
+void saturate(Motion<S>& motion) {
+  const S most = S(kSpeedMax), turn_most = S(kAngularSpeedMax);
+  motion.vx = clamp_to(motion.vx, -most, most);
+  motion.vy = clamp_to(motion.vy, -most, most);
+  motion.w = clamp_to(motion.w, -turn_most, turn_most);
+}
+
+template <class S>
 void finish_motion(Body<S>& body, Motion<S>& motion, S time_step) {
+  saturate(motion);
+  const S most = S(kSpeedMax) * time_step, turn_most = S(kAngularSpeedMax) * time_step;
+  motion.dx = clamp_to(motion.dx, -most, most);
+  motion.dy = clamp_to(motion.dy, -most, most);
+  motion.da = clamp_to(motion.da, -turn_most, turn_most);
   body.x += motion.dx;
   body.y += motion.dy;
   if (motion.da != S(0)) {
@@ -113,6 +126,8 @@ void finish_motion(Body<S>& body, Motion<S>& motion, S time_step) {
 
 template class Mover<float>;
 template class Mover<double>;
+template void saturate(Motion<float>&);
+template void saturate(Motion<double>&);
 template void finish_motion(Body<float>&, Motion<float>&, float);
 template void finish_motion(Body<double>&, Motion<double>&, double);
 template void rotation_by(float, float&, float&);

@@ -29,6 +29,10 @@ class Mover {
   S h_;
 };
 
+// Speeds saturate at kSpeedMax and kAngularSpeedMax, far beyond what a scene means: what overflows is lost for good.
+template <class S>
+void saturate(Motion<S>& motion);
+
 // Ends a step for one body: takes over the way it came, and counts how long it has been slow.
 template <class S>
 void finish_motion(Body<S>& body, Motion<S>& motion, S time_step);

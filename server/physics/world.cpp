@@ -202,6 +202,7 @@ Status WorldOf<S>::apply_impulse(BodyId id, const Vec2& impulse, const Vec2& poi
   m.vx += b.inv_mass * p.x();
   m.vy += b.inv_mass * p.y();
   m.w += b.inv_inertia * cross<S>(r, p);
+  saturate(m);
   return {};
 }
 
@@ -213,6 +214,7 @@ Status WorldOf<S>::apply_impulse_to_center(BodyId id, const Vec2& impulse) {
   wake_body(data_, slot);
   data_.motions[slot].vx += data_.bodies[slot].inv_mass * S(impulse.x());
   data_.motions[slot].vy += data_.bodies[slot].inv_mass * S(impulse.y());
+  saturate(data_.motions[slot]);
   return {};
 }
 
@@ -223,6 +225,7 @@ Status WorldOf<S>::apply_angular_impulse(BodyId id, double impulse) {
   const std::uint32_t slot = slot_of(id);
   wake_body(data_, slot);
   data_.motions[slot].w += data_.bodies[slot].inv_inertia * S(impulse);
+  saturate(data_.motions[slot]);
   return {};
 }
 

@@ -205,6 +205,24 @@ TEST_P(WorldTest, RemovingASupportWakesAndDropsWhatLay) {
   EXPECT_NEAR(world_->body(upper)->position.y(), 0.5, 0.01);
 }
 
+TEST_P(WorldTest, ExtremePushesSaturateAndStayNumbers) {
+  add(*world_, floor_body());
+  const BodyId id = add(*world_, box_body(0, 2, 0.1, 0.1)), other = add(*world_, box_body(1, 2, 0.1, 0.1));
+  ASSERT_TRUE(world_->apply_impulse(id, {1e15, 1e15}, {1e6, -1e6}));
+  ASSERT_TRUE(world_->apply_angular_impulse(other, 1e15));
+  EXPECT_EQ(world_->body(id)->velocity.x(), 1e6);
+  EXPECT_EQ(world_->body(other)->angular_velocity, 1e6);
+  ASSERT_TRUE(world_->set_force(other, {1e15, -1e15}, 1e15, false));
+  for (int i = 0; i < 120; ++i) {
+    world_->step();
+    for (const BodyId body : {id, other}) {
+      const BodyState state = *world_->body(body);
+      ASSERT_TRUE(std::isfinite(state.position.x() + state.position.y() + state.angle + state.angular_velocity)) << i;
+      ASSERT_LE(state.velocity.cwiseAbs().maxCoeff(), 1e6);
+    }
+  }
+}
+
 // Bad input -----------------------------------------------------------------------------------------------------
 
 TEST_P(WorldTest, BadInputIsATypedErrorAndTheWorldIsUnchanged) {
