@@ -6,7 +6,8 @@ namespace urto {
 
 // The default solver: sub-stepped soft contacts with warm start, friction, restitution and a relaxation pass, after
 // "Soft Step" of Box2D v3 (Catto, "Solver2D", 2024). Ours differs in that
-// - impulses act at one world point for both bodies throughout the step, so angular momentum is conserved;
+// - impulses act at one world point for both bodies while they drift, so angular momentum is conserved
+//   (but for bodies that race past each other, kDriftFraction);
 // - the soft contacts have a preload, so that stacks do not stay sunk under their weight (constraint.cpp, Softness);
 // - two points of a manifold are solved together, so that a stack does not creep sideways.
 //
