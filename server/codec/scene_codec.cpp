@@ -38,18 +38,27 @@ static_assert(v1::BROAD_PHASE_BRUTE_FORCE == static_cast<int>(BroadPhaseKind::kB
 static_assert(v1::BROAD_PHASE_QUADTREE == static_cast<int>(BroadPhaseKind::kQuadtree));
 static_assert(v1::BROAD_PHASE_BVH == static_cast<int>(BroadPhaseKind::kBvh));
 
+std::vector<Vec2> vertices_from_proto(const google::protobuf::RepeatedPtrField<v1::Vector>& messages) {
+  std::vector<Vec2> vertices;
+  vertices.reserve(static_cast<std::size_t>(messages.size()));
+  for (const v1::Vector& vertex : messages) vertices.push_back(vector_from_proto(vertex));
+  return vertices;
+}
+
 Geometry geometry_from_proto(const v1::Shape& message) {
   switch (message.geometry_case()) {
     case v1::Shape::kBox:
       return Box{message.box().width(), message.box().height(), vector_from_proto(message.box().center()),
-                 message.box().angle()};
+                 message.box().angle(), message.box().radius()};
     case v1::Shape::kCircle:
       return Circle{message.circle().radius(), vector_from_proto(message.circle().center())};
-    case v1::Shape::kPolygon: {
-      Polygon polygon;
-      for (const auto& vertex : message.polygon().vertices()) polygon.vertices.push_back(vector_from_proto(vertex));
-      return polygon;
-    }
+    case v1::Shape::kPolygon:
+      return Polygon{vertices_from_proto(message.polygon().vertices()), message.polygon().radius()};
+    case v1::Shape::kCapsule:
+      return Capsule{vector_from_proto(message.capsule().a()), vector_from_proto(message.capsule().b()),
+                     message.capsule().radius()};
+    case v1::Shape::kChain:
+      return Chain{vertices_from_proto(message.chain().vertices()), message.chain().loop()};
     case v1::Shape::GEOMETRY_NOT_SET:
       break;  // check_message() lets none pass
   }
@@ -126,6 +135,7 @@ struct GeometryWriter {
     out->mutable_box()->set_height(box.height);
     write_vector(box.center, out->mutable_box()->mutable_center());
     out->mutable_box()->set_angle(box.angle);
+    out->mutable_box()->set_radius(box.radius);
   }
   void operator()(const Circle& circle) const {
     out->mutable_circle()->set_radius(circle.radius);
@@ -134,6 +144,17 @@ struct GeometryWriter {
   void operator()(const Polygon& polygon) const {
     auto* message = out->mutable_polygon();
     for (const Vec2& vertex : polygon.vertices) write_vector(vertex, message->add_vertices());
+    message->set_radius(polygon.radius);
+  }
+  void operator()(const Capsule& capsule) const {
+    write_vector(capsule.a, out->mutable_capsule()->mutable_a());
+    write_vector(capsule.b, out->mutable_capsule()->mutable_b());
+    out->mutable_capsule()->set_radius(capsule.radius);
+  }
+  void operator()(const Chain& chain) const {
+    auto* message = out->mutable_chain();
+    for (const Vec2& vertex : chain.vertices) write_vector(vertex, message->add_vertices());
+    message->set_loop(chain.loop);
   }
 };
 

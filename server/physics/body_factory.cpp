@@ -9,24 +9,61 @@ namespace urto {
 namespace {
 
 struct Part {
-  Geometry geometry;  // a convex polygon, a box or a circle
+  Geometry geometry;  // a convex polygon, a box, a circle, a capsule, or one segment of a chain as one of 4 vertices
   const ShapeDef* def;
   AreaProperties area;
+  std::uint32_t flags = 0;  // ConvexFlag
 };
+
+// The vertex before the first or after the last of an open chain: straight down behind it, so that the end is a corner
+// of a right angle around which bodies can roll.
+Vec2 beyond_end(const Vec2& end, const Vec2& edge) { return end + Vec2(-edge.y(), edge.x()); }
+
+void add_chain(const Chain& chain, const ShapeDef& shape, std::vector<Part>& parts) {
+  const std::vector<Vec2>& v = chain.vertices;
+  const std::size_t n = v.size(), segments = chain.loop ? n : n - 1;
+  for (std::size_t i = 0; i < segments; ++i) {
+    const Vec2 a = v[i], b = v[(i + 1) % n];
+    const bool first = !chain.loop && i == 0, last = !chain.loop && i + 1 == segments;
+    const Vec2 before = first ? beyond_end(a, b - a) : v[(i + n - 1) % n];
+    const Vec2 after = last ? beyond_end(b, b - a) : v[(i + 2) % n];
+    parts.push_back({Chain{{a, b, before, after}, false}, &shape, AreaProperties{0, 0.5 * (a + b), 0},
+                     kConvexChainSegment | (last ? kConvexChainEnd : 0u)});
+  }
+}
+
+std::vector<Vec2> box_corners(const Box& box) {
+  const Rotation<double> q = Rotation<double>::from_angle(box.angle);
+  const double hw = 0.5 * box.width, hh = 0.5 * box.height;
+  std::vector<Vec2> corners = {{-hw, -hh}, {hw, -hh}, {hw, hh}, {-hw, hh}};
+  for (Vec2& corner : corners) corner = box.center + q.apply(corner);
+  return corners;
+}
+
+AreaProperties area_of(const Box& box) {
+  return box.radius == 0 ? box_area_properties(box.width, box.height, box.center)
+                         : rounded_area_properties(box_corners(box), box.radius);
+}
 
 // A body's shapes with concave polygons taken apart.
 std::vector<Part> convex_parts(const BodyDef& def) {
   std::vector<Part> parts;
   for (const ShapeDef& shape : def.shapes) {
     if (const auto* box = std::get_if<Box>(&shape.geometry)) {
-      parts.push_back({*box, &shape, box_area_properties(box->width, box->height, box->center)});
+      parts.push_back({*box, &shape, area_of(*box)});
     } else if (const auto* circle = std::get_if<Circle>(&shape.geometry)) {
       parts.push_back({*circle, &shape, circle_area_properties(circle->radius, circle->center)});
+    } else if (const auto* capsule = std::get_if<Capsule>(&shape.geometry)) {
+      parts.push_back({*capsule, &shape, rounded_area_properties({capsule->a, capsule->b}, capsule->radius)});
+    } else if (const auto* chain = std::get_if<Chain>(&shape.geometry)) {
+      add_chain(*chain, shape, parts);
     } else {
-      auto convex = decompose_polygon(std::get<Polygon>(shape.geometry).vertices);
+      const auto& polygon = std::get<Polygon>(shape.geometry);
+      auto convex = decompose_polygon(polygon.vertices);
       for (std::vector<Vec2>& vertices : *convex) {
-        const AreaProperties area = polygon_area_properties(vertices);
-        parts.push_back({Polygon{std::move(vertices)}, &shape, area});
+        const AreaProperties area =
+            polygon.radius == 0 ? polygon_area_properties(vertices) : rounded_area_properties(vertices, polygon.radius);
+        parts.push_back({Polygon{std::move(vertices), polygon.radius}, &shape, area});
       }
     }
   }
@@ -55,6 +92,7 @@ MassProperties mass_of(const BodyDef& def, const std::vector<Part>& parts) {
   return out;
 }
 
+// Two vertices make a segment, seen from both sides.
 template <class S>
 void set_polygon(Convex<S>& convex, const std::vector<Vec2>& vertices, const Vec2& centroid) {
   convex.count = static_cast<std::uint32_t>(vertices.size());
@@ -98,6 +136,41 @@ S outer_radius(const Convex<S>& convex, const Vec<S>& center) {
   return most + convex.radius;
 }
 
+// Fills in the outline of a part, and says what kind of shape it is.
+template <class S>
+ShapeKind set_outline(Convex<S>& convex, Shape<S>& shape, const Part& part) {
+  if (const auto* box = std::get_if<Box>(&part.geometry)) {
+    set_box(convex, *box);
+    convex.radius = S(box->radius);
+    if (box->radius != 0) return ShapeKind::kPolygon;
+    shape.half_width = S(0.5 * box->width);
+    shape.half_height = S(0.5 * box->height);
+    return ShapeKind::kBox;
+  }
+  if (const auto* circle = std::get_if<Circle>(&part.geometry)) {
+    convex.count = 1;
+    convex.centroid = convex.vertices[0] = circle->center.cast<S>();
+    convex.radius = S(circle->radius);
+    return ShapeKind::kCircle;
+  }
+  if (const auto* capsule = std::get_if<Capsule>(&part.geometry)) {
+    set_polygon(convex, {capsule->a, capsule->b}, part.area.centroid);
+    convex.radius = S(capsule->radius);
+    return ShapeKind::kCapsule;
+  }
+  if (const auto* chain = std::get_if<Chain>(&part.geometry)) {
+    set_polygon(convex, {chain->vertices[0], chain->vertices[1]}, part.area.centroid);
+    convex.vertices[Convex<S>::kGhostBefore] = chain->vertices[2].template cast<S>();
+    convex.vertices[Convex<S>::kGhostAfter] = chain->vertices[3].template cast<S>();
+    convex.flags = part.flags;
+    return ShapeKind::kChainSegment;
+  }
+  const auto& polygon = std::get<Polygon>(part.geometry);
+  set_polygon(convex, polygon.vertices, part.area.centroid);
+  convex.radius = S(polygon.radius);
+  return ShapeKind::kPolygon;
+}
+
 template <class S>
 std::uint32_t take_shape_slot(WorldData<S>& world) {
   if (!world.free_shapes.empty()) {
@@ -117,20 +190,7 @@ void create_shape(WorldData<S>& world, std::uint32_t body_slot, const Part& part
   Convex<S>& convex = world.convexes[proxy];
   shape = Shape<S>{};
   convex = Convex<S>{};
-  if (const auto* box = std::get_if<Box>(&part.geometry)) {
-    shape.kind = static_cast<std::uint32_t>(ShapeKind::kBox);
-    shape.half_width = S(0.5 * box->width);
-    shape.half_height = S(0.5 * box->height);
-    set_box(convex, *box);
-  } else if (const auto* circle = std::get_if<Circle>(&part.geometry)) {
-    shape.kind = static_cast<std::uint32_t>(ShapeKind::kCircle);
-    convex.count = 1;
-    convex.centroid = convex.vertices[0] = circle->center.cast<S>();
-    convex.radius = S(circle->radius);
-  } else {
-    shape.kind = static_cast<std::uint32_t>(ShapeKind::kPolygon);
-    set_polygon(convex, std::get<Polygon>(part.geometry).vertices, part.area.centroid);
-  }
+  shape.kind = static_cast<std::uint32_t>(set_outline(convex, shape, part));
   Body<S>& body = world.bodies[body_slot];
   shape.body = body_slot;
   shape.next = body.first_shape;
@@ -140,7 +200,9 @@ void create_shape(WorldData<S>& world, std::uint32_t body_slot, const Part& part
   shape.friction = S(part.def->material.friction);
   shape.restitution = S(part.def->material.restitution);
   const S inner = inner_radius(convex);
-  shape.reach = min_of(S(kSpeculativeDistanceMax), S(kSpeculativeFraction) * inner);
+  // A chain has no thickness of its own, but all the ground behind it.
+  shape.reach = convex.chain_segment() ? S(kSpeculativeDistanceMax)
+                                       : min_of(S(kSpeculativeDistanceMax), S(kSpeculativeFraction) * inner);
   // What never moves needs no room to move in.
   shape.margin = body.body_type() == BodyType::kStatic
                      ? S(0)
@@ -205,6 +267,8 @@ void count_needs(WorldData<S>& world, std::uint32_t slot, int sign) {
     add(needs.circles, shape.shape_kind() == ShapeKind::kCircle, sign);
     add(needs.boxes, shape.shape_kind() == ShapeKind::kBox, sign);
     add(needs.polygons, shape.shape_kind() == ShapeKind::kPolygon, sign);
+    add(needs.capsules, shape.shape_kind() == ShapeKind::kCapsule, sign);
+    add(needs.chain_segments, shape.shape_kind() == ShapeKind::kChainSegment, sign);
     add(needs.sensors, shape.sensor(), sign);
     add(needs.rough_shapes, shape.friction > S(0), sign);
     add(needs.bouncing_shapes, shape.restitution > S(0), sign);

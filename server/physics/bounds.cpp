@@ -7,7 +7,7 @@ namespace {
 
 template <class S>
 Aabb<S> tight_bounds(const Shape<S>& shape, const Convex<S>& convex, const Transform<S>& pose) {
-  if (shape.shape_kind() == ShapeKind::kPolygon) return convex.bounds(pose);
+  if (shape.shape_kind() != ShapeKind::kBox && shape.shape_kind() != ShapeKind::kCircle) return convex.bounds(pose);
   const Vec<S> center = pose.apply(convex.centroid);
   S ex = convex.radius, ey = convex.radius;
   if (shape.shape_kind() == ShapeKind::kBox) {

@@ -30,6 +30,7 @@ inline constexpr std::uint32_t kBodiesMax = 1u << 20;
 inline constexpr std::uint32_t kShapesPerBodyMax = 64;
 inline constexpr std::uint32_t kPolygonInputVerticesMax = 64;
 inline constexpr std::uint32_t kPolygonVerticesMax = 8;  // of one convex shape inside
+inline constexpr std::uint32_t kChainVerticesMax = 4096;
 inline constexpr std::uint32_t kForceFieldsMax = 16;
 inline constexpr std::uint32_t kSubStepsMax = 64;
 inline constexpr double kTimeStepMax = 0.1;      // s
@@ -52,11 +53,13 @@ struct Filter {
   std::uint32_t mask = 0xffffffffu;
 };
 
+// A rectangle, grown by `radius` on all sides, which rounds its corners.
 struct Box {
-  double width = 1;   // m
+  double width = 1;   // m, before it is grown
   double height = 1;  // m
   Vec2 center{0, 0};  // m, body frame
   double angle = 0;   // rad, body frame
+  double radius = 0;  // m ≥ 0
 };
 
 struct Circle {
@@ -65,12 +68,28 @@ struct Circle {
 };
 
 // A simple polygon of either winding, 3 to kPolygonInputVerticesMax vertices. What is concave, or has more than
-// kPolygonVerticesMax vertices, is decomposed into convex shapes.
+// kPolygonVerticesMax vertices, is decomposed into convex shapes. It is grown by `radius` on all sides, which rounds
+// its corners; such a one has to be convex and small enough to stay one shape.
 struct Polygon {
   std::vector<Vec2> vertices;  // m, body frame
+  double radius = 0;           // m ≥ 0
 };
 
-using Geometry = std::variant<Box, Circle, Polygon>;
+// All points within `radius` of the segment from a to b.
+struct Capsule {
+  Vec2 a{-0.5, 0}, b{0.5, 0};  // m, body frame, at least kSizeMin apart
+  double radius = 0.25;        // m
+};
+
+// Terrain: a line of 2 to kChainVerticesMax vertices that stops what comes from the right of its direction and lets
+// through what comes from the left, as the outline of a counter-clockwise polygon does. A floor is listed from right to
+// left; the walls of a room clockwise. For bodies that are not dynamic. Bodies slide over its joints as over one line.
+struct Chain {
+  std::vector<Vec2> vertices;  // m, body frame; neighbours at least kSizeMin apart
+  bool loop = false;           // the last vertex is joined to the first: 3 vertices at least
+};
+
+using Geometry = std::variant<Box, Circle, Polygon, Capsule, Chain>;
 
 struct ShapeDef {
   Geometry geometry;

@@ -66,19 +66,20 @@ std::vector<Feature> explain_model(const WorldSettings& settings, const Needs& n
   const Model model = choose_model(settings, needs);
   const bool asked_broad = settings.broad_phase != BroadPhaseKind::kAuto;
   const bool soft = settings.solver == SolverKind::kSoftStep;
-  const bool polygons = needs.boxes + needs.polygons > 0;
+  const bool polygons = needs.boxes + needs.polygons + needs.capsules + needs.chain_segments > 0;
   std::vector<Feature> out;
   out.push_back(
       {"precision", settings.precision == Precision::kFloat ? "float" : "double", true, "the scene names it"});
   out.push_back({"broad phase", name_of(model.broad_phase), true,
                  asked_broad ? "the scene names it" : count_of(needs.shapes, "shapes")});
-  out.push_back(
-      {"narrow phase",
-       !polygons                                        ? "circles"
-       : settings.narrow_phase == NarrowPhaseKind::kSat ? "SAT"
-                                                        : "GJK and EPA",
-       true,
-       count_of(needs.boxes, "boxes, ") + count_of(needs.polygons, "polygons, ") + count_of(needs.circles, "circles")});
+  out.push_back({"narrow phase",
+                 !polygons                                        ? "circles"
+                 : settings.narrow_phase == NarrowPhaseKind::kSat ? "SAT"
+                                                                  : "GJK and EPA",
+                 true,
+                 count_of(needs.boxes, "boxes, ") + count_of(needs.polygons, "polygons, ") +
+                     count_of(needs.capsules, "capsules, ") + count_of(needs.chain_segments, "chain segments, ") +
+                     count_of(needs.circles, "circles")});
   out.push_back({"solver", soft ? "soft step" : "thesis", true, count_of(settings.sub_steps, "sub-steps")});
   out.push_back({"integrator", name_of(settings.integrator), true, "the scene names it"});
   out.push_back({"rotation", needs.rotating_bodies > 0 ? "on" : "off", needs.rotating_bodies > 0,

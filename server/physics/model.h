@@ -11,7 +11,7 @@ namespace urto {
 // these counts and the settings, and of nothing else, so a replay makes the same choices.
 struct Needs {
   std::uint32_t bodies = 0, dynamic_bodies = 0, rotating_bodies = 0, damped_bodies = 0;
-  std::uint32_t shapes = 0, circles = 0, boxes = 0, polygons = 0, sensors = 0;
+  std::uint32_t shapes = 0, circles = 0, boxes = 0, polygons = 0, capsules = 0, chain_segments = 0, sensors = 0;
   std::uint32_t rough_shapes = 0;     // with friction
   std::uint32_t bouncing_shapes = 0;  // with restitution
 };

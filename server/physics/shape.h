@@ -8,7 +8,8 @@
 
 namespace urto {
 
-enum class ShapeKind : std::uint32_t { kCircle, kBox, kPolygon };
+// A rounded box is a polygon: what is known of boxes holds for sharp ones.
+enum class ShapeKind : std::uint32_t { kCircle, kBox, kPolygon, kCapsule, kChainSegment };
 
 enum ShapeFlag : std::uint32_t {
   kShapeAlive = 1u << 0,

@@ -71,6 +71,7 @@ Status check_geometry(const Geometry& geometry) {
         .range("height", box->height, kSizeMin, kSizeMax)
         .vector("center", box->center, kSizeMax)
         .bounded("angle", box->angle, kCoordinateMax)
+        .range("radius", box->radius, 0, kSizeMax)
         .result();
   }
   if (const auto* circle = std::get_if<Circle>(&geometry)) {
@@ -79,9 +80,26 @@ Status check_geometry(const Geometry& geometry) {
         .vector("center", circle->center, kSizeMax)
         .result();
   }
-  const auto parts = decompose_polygon(std::get<Polygon>(geometry).vertices);
-  if (parts) return {};
-  return Checks("polygon.").add(tl::unexpected<Error>(parts.error())).result();
+  if (const auto* capsule = std::get_if<Capsule>(&geometry)) {
+    return Checks("capsule.")
+        .range("radius", capsule->radius, kSizeMin, kSizeMax)
+        .vector("a", capsule->a, kSizeMax)
+        .vector("b", capsule->b, kSizeMax)
+        .require((capsule->b - capsule->a).norm() >= kSizeMin, ErrorCode::kDegenerateShape, "b",
+                 text_of((capsule->b - capsule->a).norm()),
+                 "a and b must be at least " + text_of(kSizeMin) + " m apart")
+        .result();
+  }
+  if (const auto* chain = std::get_if<Chain>(&geometry))
+    return Checks("chain.").add(check_chain(chain->vertices, chain->loop)).result();
+  const auto& polygon = std::get<Polygon>(geometry);
+  const auto parts = decompose_polygon(polygon.vertices);
+  Checks checks("polygon.");
+  if (!parts) return checks.add(tl::unexpected<Error>(parts.error())).result();
+  return checks.range("radius", polygon.radius, 0, kSizeMax)
+      .require(polygon.radius == 0 || parts->size() == 1, ErrorCode::kInvalidValue, "radius", text_of(polygon.radius),
+               "a rounded polygon must be convex and have at most " + std::to_string(kPolygonVerticesMax) + " vertices")
+      .result();
 }
 
 Status check_shape(const ShapeDef& shape) {
@@ -128,9 +146,14 @@ Status check_motion_of_static(const BodyDef& def) {
 }
 
 Status check_mass(const BodyDef& def) {
-  bool solid = false;
-  for (const ShapeDef& shape : def.shapes) solid |= !shape.sensor;
+  bool solid = false, chain = false;
+  for (const ShapeDef& shape : def.shapes) {
+    solid |= !shape.sensor;
+    chain |= std::holds_alternative<Chain>(shape.geometry);
+  }
   Checks checks;
+  checks.require(def.type != BodyType::kDynamic || !chain, ErrorCode::kWrongBodyType, "shapes",
+                 std::to_string(def.shapes.size()), "a chain has no mass: a dynamic body can have none");
   checks.require(def.type != BodyType::kDynamic || solid, ErrorCode::kInvalidValue, "shapes",
                  std::to_string(def.shapes.size()), "a dynamic body needs a shape that is not a sensor");
   if (def.mass) {

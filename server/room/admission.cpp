@@ -85,7 +85,7 @@ class BatchCheck {
       return reject(RejectionCode::kQuota, "spawn.body", std::to_string(overlay_.body_count()),
                     "The room holds as many bodies as it may: " + std::to_string(context_.limits.bodies_max) + ".");
     }
-    if (overlay_.shape_count() + spec.def.shapes.size() > context_.limits.shapes_max) {
+    if (overlay_.shape_count() + shape_count_of(spec.def) > context_.limits.shapes_max) {
       return reject(RejectionCode::kQuota, "spawn.body.shapes", std::to_string(overlay_.shape_count()),
                     "The room holds as many shapes as it may: " + std::to_string(context_.limits.shapes_max) + ".");
     }

@@ -25,8 +25,8 @@ std::optional<BatchOverlay::Target> BatchOverlay::find(const BodyRef& ref) const
 
 void BatchOverlay::spawn(const BodySpec& spec) {
   ++body_count_;
-  shape_count_ += spec.def.shapes.size();
-  if (!spec.name.empty()) by_name_[spec.name] = Spawned{spec.def.type, spec.def.shapes.size()};
+  shape_count_ += shape_count_of(spec.def);
+  if (!spec.name.empty()) by_name_[spec.name] = Spawned{spec.def.type, shape_count_of(spec.def)};
 }
 
 void BatchOverlay::despawn(const BodyRef& ref) {
@@ -39,7 +39,7 @@ void BatchOverlay::despawn(const BodyRef& ref) {
     }
   }
   const BodyRecordPtr record = base_->find(ref);
-  shape_count_ -= record->spec.def.shapes.size();
+  shape_count_ -= shape_count_of(record->spec.def);
   removed_.insert(record->id);
 }
 

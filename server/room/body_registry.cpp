@@ -7,14 +7,14 @@ namespace urto {
 void BodyRegistry::add(BodyRecordPtr record) {
   const BodyId id = record->id;
   if (!record->spec.name.empty()) by_name_[record->spec.name] = id;
-  shape_count_ += record->spec.def.shapes.size();
+  shape_count_ += shape_count_of(record->spec.def);
   by_id_[id] = std::move(record);
 }
 
 void BodyRegistry::remove(BodyId id) {
   const auto it = by_id_.find(id);
   if (it == by_id_.end()) return;
-  shape_count_ -= it->second->spec.def.shapes.size();
+  shape_count_ -= shape_count_of(it->second->spec.def);
   by_name_.erase(it->second->spec.name);
   by_id_.erase(it);
 }

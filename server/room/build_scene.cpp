@@ -14,7 +14,7 @@ Status check_limits(const SceneDef& scene, const Limits& limits) {
                    "The room holds at most " + std::to_string(limits.bodies_max) + " bodies.");
   }
   std::size_t shapes = 0;
-  for (const BodySpec& body : scene.bodies) shapes += body.def.shapes.size();
+  for (const BodySpec& body : scene.bodies) shapes += shape_count_of(body.def);
   if (shapes > limits.shapes_max) {
     return failure(ErrorCode::kLimitReached, "bodies", std::to_string(shapes),
                    "The room holds at most " + std::to_string(limits.shapes_max) + " shapes.");

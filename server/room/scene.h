@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "physics/definitions.h"
@@ -16,6 +18,16 @@ struct BodySpec {
   BodyDef def;
   std::optional<std::uint32_t> color;  // 0xRRGGBB
 };
+
+// What a body counts against a room's shapes_max: each segment of a chain is a shape.
+inline std::size_t shape_count_of(const BodyDef& def) {
+  std::size_t count = 0;
+  for (const ShapeDef& shape : def.shapes) {
+    const auto* chain = std::get_if<Chain>(&shape.geometry);
+    count += chain ? chain->vertices.size() : 1;
+  }
+  return count;
+}
 
 // What a viewer should frame at first: a rectangle, m, world frame.
 struct View {

@@ -22,12 +22,20 @@ world {
 bodies {
   name: "b" tags: "t1" tags: "t2" type: BODY_TYPE_KINEMATIC position { x: 1 y: 2 } angle: 3
   velocity { x: 4 y: 5 } angular_velocity: 6
-  shapes { box { width: 1 height: 2 center { x: 3 y: 4 } angle: 5 } density: 6 friction: 7 restitution: 0.5
+  shapes { box { width: 1 height: 2 center { x: 3 y: 4 } angle: 5 radius: 7 } density: 6 friction: 7 restitution: 0.5
            category: 0x10 mask: 0x20 sensor: true }
   shapes { circle { radius: 1 center { x: 2 y: 3 } } density: 1 friction: 0.6 restitution: 0 category: 1
            mask: 0xffffffff sensor: false }
   shapes { polygon { vertices { x: 0 y: 0 } vertices { x: 1 y: 0 } vertices { x: 0 y: 1 } } density: 1 friction: 0.6
            restitution: 0 category: 1 mask: 0xffffffff sensor: false }
+  shapes { box { width: 1 height: 2 center { x: 3 y: 4 } angle: 5 radius: 6 } density: 1 friction: 0.6 restitution: 0
+           category: 1 mask: 0xffffffff sensor: false }
+  shapes { polygon { vertices { x: 0 y: 0 } vertices { x: 1 y: 0 } vertices { x: 0 y: 1 } radius: 0.5 } density: 1
+           friction: 0.6 restitution: 0 category: 1 mask: 0xffffffff sensor: false }
+  shapes { capsule { a { x: 1 y: 2 } b { x: 3 y: 4 } radius: 5 } density: 1 friction: 0.6 restitution: 0 category: 1
+           mask: 0xffffffff sensor: false }
+  shapes { chain { vertices { x: 0 y: 0 } vertices { x: 1 y: 0 } vertices { x: 0 y: 1 } loop: true } density: 1
+           friction: 0.6 restitution: 0 category: 1 mask: 0xffffffff sensor: false }
   mass: 8 linear_damping: 9 angular_damping: 10 gravity_scale: 11 fixed_rotation: true awake: false color: 0x123456
 }
 fields { point_attractor { center { x: 1 y: 2 } strength: 3 softening: 4 } }

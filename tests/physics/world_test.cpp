@@ -312,5 +312,55 @@ TEST(WorldSettingsTest, OutOfRangeSettingsAreRefused) {
   refused([](WorldSettings& s) { s.fields.push_back(Drag{-1, 0}); }, "fields[0].drag.linear");
 }
 
+TEST_P(WorldTest, RoundedShapesHaveTheirMassAndAreFoundWhereTheyAre) {
+  const double pi = 3.14159265358979323846;
+  const BodyId capsule = add(*world_, body_with({Capsule{{-1, 0}, {1, 0}, 0.5}, {}, {}, false}, {0, 0}));
+  EXPECT_NEAR(world_->mass_properties(capsule)->mass, 2 + pi / 4, 1e-6);
+  EXPECT_EQ(world_->query_point({1.4, 0})->size(), 1u);
+  EXPECT_EQ(world_->query_point({1.4, 0.4})->size(), 0u);
+  const auto hits = *world_->query_ray({5, 0}, {-10, 0});
+  ASSERT_EQ(hits.size(), 1u);
+  EXPECT_NEAR(hits[0].point.x(), 1.5, 1e-6);
+  const BodyId box = add(*world_, body_with({Box{2, 1, {0, 0}, 0, 0.5}, {}, {}, false}, {10, 0}));
+  EXPECT_NEAR(world_->mass_properties(box)->mass, 2 + 2 * (2 + 1) * 0.5 + pi / 4, 1e-5);
+  EXPECT_EQ(world_->query_point({11.45, 0})->size(), 1u);
+  EXPECT_EQ(world_->query_point({11.45, 0.95})->size(), 0u);
+  EXPECT_EQ(world_->query_aabb({11.4, 0.9}, {12, 2})->size(), 1u);  // by its bounds, radius included
+}
+
+TEST_P(WorldTest, RefusesRoundedShapesThatAreNone) {
+  const auto refusal = [&](Geometry geometry, BodyType type = BodyType::kDynamic) {
+    const auto id = world_->add_body(body_with({std::move(geometry), {}, {}, false}, {0, 0}, type));
+    return id ? std::string("accepted") : id.error().field;
+  };
+  EXPECT_EQ(refusal(Box{1, 1, {0, 0}, 0, -0.1}), "shapes[0].box.radius");
+  EXPECT_EQ(refusal(Capsule{{0, 0}, {0, 0}, 1}), "shapes[0].capsule.b");
+  EXPECT_EQ(refusal(Capsule{{0, 0}, {1, 0}, 0}), "shapes[0].capsule.radius");
+  EXPECT_EQ(refusal(Polygon{{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, 0.1}), "shapes[0].polygon.radius");
+  EXPECT_EQ(refusal(Polygon{{{0, 0}, {2, 0}, {0, 2}}, 0.1}), "accepted");
+  EXPECT_EQ(refusal(Chain{{{1, 0}, {0, 0}}, false}), "shapes");  // a dynamic body can have none
+  EXPECT_EQ(refusal(Chain{{{1, 0}, {0, 0}}, false}, BodyType::kStatic), "accepted");
+  EXPECT_EQ(refusal(Chain{{{1, 0}, {0, 0}}, true}, BodyType::kKinematic), "shapes[0].chain.vertices");
+}
+
+TEST_P(WorldTest, RoundShapesComeToRestOnAChainAndNotBelow) {
+  Chain chain;
+  for (int i = 20; i >= -20; --i) chain.vertices.push_back({0.5 * i, 0.02 * i * i});
+  add(*world_, body_with({chain, {}, {}, false}, {0, 0}, BodyType::kStatic));
+  std::vector<BodyId> ids;
+  for (int i = 0; i < 12; ++i) {
+    const Geometry shapes[] = {Capsule{{-0.3, 0}, {0.3, 0}, 0.2}, Box{0.4, 0.2, {0, 0}, 0, 0.1}, Circle{0.3, {0, 0}},
+                               Polygon{{{-0.3, -0.2}, {0.3, -0.2}, {0, 0.3}}, 0.1}};
+    ids.push_back(add(*world_, body_with({shapes[i % 4], {}, {}, false}, {0.6 * (i - 6), 4 + 0.5 * (i % 3)})));
+  }
+  step_for(*world_, 20);
+  for (BodyId id : ids) {
+    const BodyState state = *world_->body(id);
+    EXPECT_FALSE(state.awake);
+    EXPECT_GT(state.position.y(), 0.08 * state.position.x() * state.position.x());  // above the parabola of the chain
+  }
+  EXPECT_LT(world_->counters().penetration_max, 0.005);
+}
+
 }  // namespace
 }  // namespace urto

@@ -126,6 +126,17 @@ def polygon(vertices: list[tuple[float, float]], **material: Any) -> Message:
     return {"polygon": {"vertices": [vector(x, y) for x, y in vertices]}, **material}
 
 
+def capsule(a: tuple[float, float], b: tuple[float, float], radius: float, **material: Any) -> Message:
+    return {"capsule": {"a": vector(*a), "b": vector(*b), "radius": float(radius)}, **material}
+
+
+def chain(vertices: list[tuple[float, float]], loop: bool = False, **material: Any) -> Message:
+    geometry: Message = {"vertices": [vector(x, y) for x, y in vertices]}
+    if loop:
+        geometry["loop"] = True
+    return {"chain": geometry, **material}
+
+
 def body(
     shapes: Message | list[Message],
     x: float,
@@ -544,6 +555,37 @@ def arch(count: int = 11) -> Message:
     )
 
 
+def terrain(rows: int = 4, columns: int = 9) -> Message:
+    """A chain of hills between two slopes, an island of stone in the air, and what is round falling onto them."""
+    hills = [(x / 2, 1.2 * math.sin(x / 4) + 0.4 * math.sin(x / 1.7)) for x in range(40, -41, -1)]
+    valley = [(26.0, 12.0), *hills, (-26.0, 12.0)]  # from right to left: the front is above
+    island = [(-3.0, 7.0), (3.0, 7.0), (2.0, 8.0), (-2.0, 8.0)]  # counter-clockwise: the front is outside
+    bodies = [
+        body(chain(valley, friction=0.5), 0, 0, name="valley", kind="STATIC", color=SLATE),
+        body(chain(island, loop=True, friction=0.5), 0, 0, name="island", kind="STATIC", color=STEEL),
+    ]
+    rng = random.Random(7)
+    triangle = [(-0.35, -0.3), (0.35, -0.3), (0.0, 0.4)]
+    for index in range(rows * columns):
+        x = 2.2 * (index % columns - (columns - 1) / 2) + rng.random() - 0.5
+        y = 10.0 + 1.6 * (index // columns)
+        turn = 2 * math.pi * rng.random()
+        made = (
+            capsule((-0.4, 0.0), (0.4, 0.0), 0.3),
+            {"box": {"width": 0.7, "height": 0.4, "radius": 0.15}},
+            {"polygon": {"vertices": [vector(*each) for each in triangle], "radius": 0.2}},
+            circle(0.4),
+        )[index % 4]
+        bodies.append(body(made, x, y, angle=turn, color=PALETTE[index % len(PALETTE)]))
+    return scene(
+        "terrain",
+        f"{rows * columns} capsules, rounded boxes, rounded triangles and discs fall onto an island and into a valley, "
+        "both of them chains of segments.",
+        (-22, -3, 22, 18),
+        bodies,
+    )
+
+
 def tumbler(count: int = 300) -> Message:
     radius, thickness, panels = 7.0, 0.4, 20
     walls: list[Message] = []
@@ -696,6 +738,7 @@ SCENES: tuple[Callable[[], Message], ...] = (
     cradle,
     slope,
     arch,
+    terrain,
     tumbler,
     orbit,
     integrators,

@@ -28,14 +28,18 @@ def test_shapes_of_a_body_lie_in_its_frame() -> None:
                 urto.Box(width=2, height=1, position=(1, 2), angle=0.5),
                 urto.Circle(radius=1, position=(-1, 0)),
                 urto.Polygon(vertices=[(1, 0), (2, 0), (1, 1)], position=(5, 5), angle=math.pi / 2),
+                urto.Capsule(a=(1, 0), b=(2, 0), radius=1, position=(5, 5), angle=math.pi / 2),
+                urto.Chain(vertices=[(1, 0), (2, 0)], position=(5, 5)),
             ],
         )
     )
-    box, circle, polygon = message.shapes
+    box, circle, polygon, capsule, chain = message.shapes
     assert (box.box.center.x, box.box.center.y, box.box.angle) == (1, 2, 0.5)
     assert circle.circle.center.x == -1
     turned = [(vertex.x, vertex.y) for vertex in polygon.polygon.vertices]
     assert np.allclose(turned, [(5, 6), (5, 7), (4, 6)])
+    assert np.allclose([capsule.capsule.a.x, capsule.capsule.a.y, capsule.capsule.b.y], [5, 6, 7])
+    assert [(vertex.x, vertex.y) for vertex in chain.chain.vertices] == [(6, 5), (7, 5)]
 
 
 def test_there_and_back() -> None:
@@ -48,6 +52,11 @@ def test_there_and_back() -> None:
                      restitution=0.5, category=2, mask=4, sensor=True),
             urto.Circle(radius=1.0),
             urto.Polygon(vertices=((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))),
+            urto.Polygon(vertices=((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)), radius=0.25),
+            urto.Box(width=1.0, height=2.0, radius=0.5),
+            urto.Capsule(a=(0.0, 1.0), b=(2.0, 3.0), radius=0.5, friction=0.25),
+            urto.Chain(vertices=((0.0, 0.0), (-1.0, 0.0)), restitution=0.5),
+            urto.Chain(vertices=((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)), loop=True),
         ),
     )  # fmt: skip
     assert body_from_proto(body_to_proto(body)) == body
@@ -61,7 +70,7 @@ def test_there_and_back() -> None:
         (urto.Circle(radius=1, position=5), "position must be two numbers"),
         (urto.Circle(radius=1, type="ghost"), "type must be"),
         (urto.Circle(radius=1, mask=-1), "mask must be a whole number"),
-        (urto.Polygon(vertices=[]), "vertices must be 3 to 64"),
+        (urto.Polygon(vertices=[]), "vertices must be points, there are none"),
         (urto.Body(shapes=[urto.Circle(radius=1, name="inner")]), r"shapes\[0\].name belongs to the body"),
         ("box", "spawn takes a Box"),
     ],

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "physics/geometry/predicates.h"
+#include "physics/geometry/trigonometry.h"
 
 namespace urto {
 namespace {
@@ -86,10 +87,11 @@ double signed_area(const Points& points) {
   return 0.5 * twice;
 }
 
-Status check_values(const Points& vertices) {
-  if (vertices.size() < 3 || vertices.size() > kPolygonInputVerticesMax) {
-    return failure(ErrorCode::kInvalidValue, "vertices", std::to_string(vertices.size()),
-                   "A polygon needs 3 to " + std::to_string(kPolygonInputVerticesMax) + " vertices.");
+Status check_values(const Points& vertices, const char* what, std::size_t least, std::size_t most) {
+  if (vertices.size() < least || vertices.size() > most) {
+    return failure(
+        ErrorCode::kInvalidValue, "vertices", std::to_string(vertices.size()),
+        std::string(what) + " needs " + std::to_string(least) + " to " + std::to_string(most) + " vertices.");
   }
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     for (const double value : {vertices[i].x(), vertices[i].y()}) {
@@ -351,8 +353,59 @@ AreaProperties box_area_properties(double width, double height, const Vec2& cent
   return {area, center, area * (width * width + height * height) / 12};
 }
 
+AreaProperties rounded_area_properties(const std::vector<Vec2>& counter_clockwise, double radius) {
+  const std::size_t n = counter_clockwise.size();
+  AreaProperties core = polygon_area_properties(counter_clockwise);
+  if (n < 3) core = {0, 0.5 * (counter_clockwise[0] + counter_clockwise[1]), 0};
+  if (radius == 0) return core;
+  // About the centroid of the core: the core, a strip along each edge, and a sector at each vertex.
+  double area = core.area, moment = core.second_moment;
+  Vec2 first{0, 0};
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 before = counter_clockwise[(i + n - 1) % n], at = counter_clockwise[i];
+    const Vec2 after = counter_clockwise[(i + 1) % n];
+    const Vec2 in = at - before, out = after - at;
+    const double size = out.norm();
+    const Vec2 n0 = Vec2(in.y(), -in.x()) / in.norm(), n1 = Vec2(out.y(), -out.x()) / size;
+    const double strip = size * radius;
+    const Vec2 middle = 0.5 * (at + after) + 0.5 * radius * n1 - core.centroid;
+    area += strip;
+    first += strip * middle;
+    moment += strip * ((size * size + radius * radius) / 12 + middle.dot(middle));
+    // Sector between the normals n0 and n1: area r²θ/2; ∫ r dA = r³/3 · (n1.y − n0.y, n0.x − n1.x); ∫ r² dA = r⁴θ/4.
+    const double angle = atan2_of(cross_of(n0, n1), n0.dot(n1));
+    const double sector = 0.5 * radius * radius * angle;
+    const Vec2 sector_first = radius * radius * radius / 3 * Vec2(n1.y() - n0.y(), n0.x() - n1.x());
+    const Vec2 corner = at - core.centroid;
+    area += sector;
+    first += sector * corner + sector_first;
+    moment += 0.5 * sector * radius * radius + 2 * corner.dot(sector_first) + sector * corner.dot(corner);
+  }
+  const Vec2 offset = first / area;
+  return {area, core.centroid + offset, moment - area * offset.dot(offset)};
+}
+
+Status check_chain(const std::vector<Vec2>& v, bool loop) {
+  if (Status status = check_values(v, "A chain", loop ? 3 : 2, kChainVerticesMax); !status) return status;
+  const std::size_t n = v.size();
+  for (std::size_t i = 0; i + 1 < n || (loop && i < n); ++i) {
+    const std::size_t next = (i + 1) % n, second = (i + 2) % n;
+    if ((v[next] - v[i]).norm() < kSizeMinRounded) {
+      return failure(ErrorCode::kDegenerateShape, vertex_field(next), text_of(v[next]),
+                     "Neighbouring vertices must be at least " + text_of(kSizeMin) + " m apart.");
+    }
+    if (!loop && i + 2 >= n) continue;
+    if (orientation(v[i], v[next], v[second]) == 0 && (v[next] - v[i]).dot(v[second] - v[next]) < 0) {
+      return failure(ErrorCode::kDegenerateShape, vertex_field(next), text_of(v[next]),
+                     "The edges at a vertex must not lie on each other.");
+    }
+  }
+  return {};
+}
+
 Expected<std::vector<std::vector<Vec2>>> decompose_polygon(const std::vector<Vec2>& vertices) {
-  if (Status status = check_values(vertices); !status) return tl::unexpected<Error>(status.error());
+  if (Status status = check_values(vertices, "A polygon", 3, kPolygonInputVerticesMax); !status)
+    return tl::unexpected<Error>(status.error());
   if (Status status = check_simple(vertices); !status) return tl::unexpected<Error>(status.error());
   const double tolerance = kFlatness * extent_of(vertices);
   Points outline = without_flat_vertices(vertices, tolerance);

@@ -17,6 +17,8 @@ struct AreaProperties {
 AreaProperties polygon_area_properties(const std::vector<Vec2>& counter_clockwise);
 AreaProperties circle_area_properties(double radius, const Vec2& center);
 AreaProperties box_area_properties(double width, double height, const Vec2& center);
+// Of a convex outline of 2 or more vertices (2: a capsule's segment) grown by a radius.
+AreaProperties rounded_area_properties(const std::vector<Vec2>& counter_clockwise, double radius);
 
 // A simple polygon of either winding as convex, counter-clockwise parts of at most kPolygonVerticesMax vertices that
 // cover it without overlap. A polygon that is convex and small enough is returned as it is (made counter-clockwise,
@@ -26,5 +28,9 @@ AreaProperties box_area_properties(double width, double height, const Vec2& cent
 // kDegenerateShape (coinciding neighbours, crossing edges, no area, thinner than kSizeMin). Error::field is
 // "vertices" or "vertices[i]".
 Expected<std::vector<std::vector<Vec2>>> decompose_polygon(const std::vector<Vec2>& vertices);
+
+// Whether the vertices make a chain: kInvalidValue (too few or too many vertices, not finite, beyond kSizeMax),
+// kDegenerateShape (neighbours nearer than kSizeMin, an edge that folds back onto the one before). It may cross itself.
+Status check_chain(const std::vector<Vec2>& vertices, bool loop);
 
 }  // namespace urto

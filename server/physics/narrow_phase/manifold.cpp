@@ -1,6 +1,7 @@
 #include "physics/narrow_phase/manifold.h"
 
 #include "physics/constants.h"
+#include "physics/narrow_phase/chain_segment.h"
 #include "physics/narrow_phase/gjk.h"
 
 namespace urto {
@@ -55,6 +56,27 @@ Manifold<S> collide_polygon_circle(const Convex<S>& polygon, const Vec<S>& cente
   if (gap > reach) return m;
   add_point<S>(m, center - m.normal * (separation - polygon.radius - S(0.5) * gap), gap, id);
   return m;
+}
+
+// One id wherever a disc touches a segment: it rolls over the ends without losing what it carries.
+template <class S>
+Manifold<S> collide_segment_circle(const Convex<S>& segment, const Vec<S>& center, S radius, S reach) {
+  Manifold<S> m;
+  const Vec<S> edge = segment.vertices[1] - segment.vertices[0];
+  const S along = clamp_to(dot<S>(edge, center - segment.vertices[0]) / dot<S>(edge, edge), S(0), S(1));
+  const Vec<S> nearest = segment.vertices[0] + edge * along, d = center - nearest;
+  const S distance = length<S>(d);
+  const S gap = distance - segment.radius - radius;
+  if (gap > reach) return m;
+  m.normal = distance > S(0) ? Vec<S>(d / distance) : segment.normals[0];
+  add_point<S>(m, nearest + m.normal * (segment.radius + S(0.5) * gap), gap, 0);
+  return m;
+}
+
+template <class S>
+Manifold<S> collide_with_circle(const Convex<S>& shape, const Vec<S>& center, S radius, S reach) {
+  return shape.count == 2 ? collide_segment_circle(shape, center, radius, reach)
+                          : collide_polygon_circle(shape, center, radius, reach);
 }
 
 template <class S>
@@ -121,7 +143,25 @@ Manifold<S> corner_to_corner(const Convex<S>& a, const Convex<S>& b, S reach) {
   const Distance<S> d = gjk_distance<S>(a, b, Transform<S>{});
   if (d.separation > reach) return m;
   m.normal = d.normal;
-  add_point<S>(m, S(0.5) * (d.point_a + d.point_b), d.separation, 0x8000u);
+  add_point<S>(m, S(0.5) * (d.point_a + d.point_b), d.separation, ManifoldIds::kCorners);
+  return m;
+}
+
+// Of shapes with a radius, whose cores are mostly apart while they touch. A face that has a corner of the other
+// straight before it, or an edge along it, gives the normal; else two corners do.
+template <class S>
+Manifold<S> collide_rounded(const Convex<S>& a, const Convex<S>& b, const Manifold<S>& faces, S core_separation,
+                            S reach) {
+  const S radii = a.radius + b.radius;
+  for (int i = 0; i < faces.count; ++i)
+    if (core_separation <= S(0) || faces.points[i].separation + radii <= core_separation + S(kFacePreference))
+      return faces;
+  const Distance<S> d = gjk_distance<S>(a, b, Transform<S>{});
+  if (faces.count > 0 && (d.edge_a || d.edge_b)) return faces;
+  Manifold<S> m;
+  if (d.separation > reach) return m;
+  m.normal = d.normal;
+  add_point<S>(m, S(0.5) * (d.point_a + d.point_b), d.separation, ManifoldIds::kCorners);
   return m;
 }
 
@@ -144,13 +184,19 @@ Manifold<S> collide_polygons_gjk(const Convex<S>& a, const Convex<S>& b, S reach
   const Distance<S> d = gjk_distance<S>(a, b, Transform<S>{});
   Manifold<S> m;
   if (d.separation > reach) return m;
+  const S radii = a.radius + b.radius;
+  if (radii > S(0) && d.separation + radii > S(0) && !d.edge_a && !d.edge_b) {
+    m.normal = d.normal;
+    add_point<S>(m, S(0.5) * (d.point_a + d.point_b), d.separation, ManifoldIds::kCorners);
+    return m;
+  }
   S along_a, along_b;
   const std::uint32_t face_a = face_along<S>(a, d.normal, along_a);
   const std::uint32_t face_b = face_along<S>(b, -d.normal, along_b);
   m = along_a + S(kFacePreference) >= along_b ? clip(a, face_a, b, reach, false) : clip(b, face_b, a, reach, true);
   if (m.count == 0) {
     m.normal = d.normal;
-    add_point<S>(m, S(0.5) * (d.point_a + d.point_b), d.separation, 0x8000u);
+    add_point<S>(m, S(0.5) * (d.point_a + d.point_b), d.separation, ManifoldIds::kCorners);
   }
   return m;
 }
@@ -198,6 +244,7 @@ Manifold<S> collide_polygons_sat(const Convex<S>& a, const Convex<S>& b, S reach
   if (fb.separation - radii > reach) return Manifold<S>{};
   const bool flip = fb.separation > fa.separation + S(kFacePreference);
   const Manifold<S> m = flip ? clip(b, fb.face, a, reach, true) : clip(a, fa.face, b, reach, false);
+  if (radii > S(0)) return collide_rounded(a, b, m, max_of(fa.separation, fb.separation), reach);
   const S seam = S(kSeamFraction) * min_of(reach, S(kSpeculativeDistanceMax));
   if (m.count == 2 && patch_length(m) < seam && m.points[0].separation > -seam)
     return slide_over_seam(a, b, m, reach, seam);
@@ -209,6 +256,21 @@ template <class S>
 void turn_around(Manifold<S>& m, const Transform<S>& b_in_a) {
   m.normal = b_in_a.q.apply(-m.normal);
   for (int i = 0; i < m.count; ++i) m.points[i].p = b_in_a.apply(m.points[i].p);
+}
+
+// Chains do not touch each other.
+template <class S>
+Manifold<S> collide_with_chain(const Convex<S>& a, const Convex<S>& b, const Transform<S>& b_in_a, S reach) {
+  if (a.chain_segment() && b.chain_segment()) return {};
+  const Transform<S> frame = a.chain_segment() ? b_in_a : b_in_a.inverse_times(Transform<S>{});
+  const Convex<S>& other = a.chain_segment() ? b : a;
+  Convex<S> moved = placed(other, frame);
+  moved.centroid = frame.apply(other.centroid);
+  if (a.chain_segment()) return collide_chain_segment(a, moved, reach);
+  Manifold<S> m = collide_chain_segment(b, moved, reach);
+  turn_around(m, b_in_a);
+  for (int i = 0; i < m.count; ++i) m.points[i].id ^= ManifoldIds::kFlip;
+  return m;
 }
 
 }  // namespace
@@ -234,6 +296,7 @@ Convex<S> placed(const Convex<S>& b, const Transform<S>& b_in_a) {
   Convex<S> out{typename Convex<S>::Uninitialized{}};
   out.count = b.count;
   out.radius = b.radius;
+  out.flags = b.flags;
   for (std::uint32_t i = 0; i < b.count; ++i) {
     out.vertices[i] = b_in_a.apply(b.vertices[i]);
     out.normals[i] = b_in_a.q.apply(b.normals[i]);
@@ -242,15 +305,21 @@ Convex<S> placed(const Convex<S>& b, const Transform<S>& b_in_a) {
 }
 
 template <class S>
+LocalManifold<S> clip_to_face(const Convex<S>& reference, std::uint32_t face, const Convex<S>& other, S reach,
+                              bool flip) {
+  return clip(reference, face, other, reach, flip);
+}
+
+template <class S>
 LocalManifold<S> collide(const Convex<S>& a, const Convex<S>& b, const Transform<S>& b_in_a, S reach,
                          NarrowPhaseKind kind) {
+  if (((a.flags | b.flags) & kConvexChainSegment) != 0) return collide_with_chain(a, b, b_in_a, reach);
   if (b.count == 1) {
     const Vec<S> center = b_in_a.apply(b.vertices[0]);
-    return a.count == 1 ? collide_circles(a, center, b.radius, reach)
-                        : collide_polygon_circle(a, center, b.radius, reach);
+    return a.count == 1 ? collide_circles(a, center, b.radius, reach) : collide_with_circle(a, center, b.radius, reach);
   }
   if (a.count == 1) {
-    LocalManifold<S> m = collide_polygon_circle<S>(b, b_in_a.apply_inverse(a.vertices[0]), a.radius, reach);
+    LocalManifold<S> m = collide_with_circle<S>(b, b_in_a.apply_inverse(a.vertices[0]), a.radius, reach);
     turn_around(m, b_in_a);
     return m;
   }
@@ -261,6 +330,7 @@ LocalManifold<S> collide(const Convex<S>& a, const Convex<S>& b, const Transform
 #define URTO_INSTANTIATE(S)                                                                                       \
   template LocalManifold<S> collide(const Convex<S>&, const Convex<S>&, const Transform<S>&, S, NarrowPhaseKind); \
   template FaceSeparation<S> max_face_separation(const Convex<S>&, const Convex<S>&);                             \
+  template LocalManifold<S> clip_to_face(const Convex<S>&, std::uint32_t, const Convex<S>&, S, bool);             \
   template Convex<S> placed(const Convex<S>&, const Transform<S>&);
 URTO_INSTANTIATE(float)
 URTO_INSTANTIATE(double)

@@ -14,7 +14,8 @@ namespace urto {
 //   +---x---x----+   separation: metres along the normal, negative if penetrating
 //   |      a     |
 struct ManifoldIds {
-  static constexpr std::uint32_t kFlip = 1u << 16;  // the reference face is b's
+  static constexpr std::uint32_t kFlip = 1u << 16;     // the reference face is b's
+  static constexpr std::uint32_t kCorners = 1u << 15;  // a corner against a corner: there is no face
 };
 
 template <class S>
@@ -43,6 +44,12 @@ struct FaceSeparation {
 };
 template <class S>
 FaceSeparation<S> max_face_separation(const Convex<S>& a, const Convex<S>& b_placed);
+
+// Contact points of the edge of `other` that looks most against a face of `reference`, both in one frame. `flip`: the
+// reference is the second of the pair, and the normal is turned to point from the first.
+template <class S>
+LocalManifold<S> clip_to_face(const Convex<S>& reference, std::uint32_t face, const Convex<S>& other, S reach,
+                              bool flip);
 
 // b's outline moved into a's frame.
 template <class S>

@@ -124,7 +124,7 @@ void collide_pair(WorldData<S>& world, const Pair<S>& pair) {
   if (m.count > 1) depth = max_of(depth, -m.points[1].separation);
   pair.contact.nx = normal.x();
   pair.contact.ny = normal.y();
-  if (shape_a.count >= 3 && shape_b.count >= 3) {
+  if (shape_a.count >= 3 && shape_b.count >= 3 && shape_a.radius + shape_b.radius == S(0)) {
     const NearestVertices<S> nearest = nearest_vertices(shape_a, placed(shape_b, b_in_a));
     set_points(pair, nearest.points, nearest.count, -depth, pose_a);
   } else {

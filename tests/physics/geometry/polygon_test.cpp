@@ -286,5 +286,65 @@ TEST(PolygonTest, ThinnestAllowedBoxPassesAtAnyAngle) {
   }
 }
 
+// A capsule: rectangle and two half discs, I = 2rL (L² + 4r²)/12 + πr²·r²/2 + πr²·L²/4 + 2·πr²·(L/2)·(4r/3π)
+// (a half disc about its own centre: its distance squared averages (L/2 + s)², s the distance along the axis).
+TEST(RoundedAreaTest, ACapsuleHasItsClosedForm) {
+  const double pi = 3.14159265358979323846, r = 0.3, l = 1.7;
+  const AreaProperties p = rounded_area_properties({{2, 1}, {2 + l, 1}}, r);
+  EXPECT_NEAR(p.area, 2 * r * l + pi * r * r, 1e-12);
+  EXPECT_NEAR(p.centroid.x(), 2 + l / 2, 1e-12);
+  EXPECT_NEAR(p.centroid.y(), 1, 1e-12);
+  const double strip = 2 * r * l * (l * l + 4 * r * r) / 12;
+  const double ends = pi * r * r * (0.5 * r * r + 0.25 * l * l) + 2 * pi * r * r * (l / 2) * (4 * r / (3 * pi));
+  EXPECT_NEAR(p.second_moment, strip + ends, 1e-12);
+}
+
+// Against a sum over a fine grid of the points within the radius of the polygon.
+TEST(RoundedAreaTest, ARoundedPolygonHasTheMomentsOfItsPoints) {
+  const std::vector<Vec2> v = {{0, 0}, {2, 0.3}, {1.5, 1.4}, {0.2, 0.9}};
+  const double r = 0.25, step = 0.004;
+  const auto inside = [&](const Vec2& p) {
+    bool core = true;
+    double nearest = 1e9;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      const Vec2 a = v[i], e = v[(i + 1) % v.size()] - a;
+      const Vec2 d = p - a;
+      core = core && e.x() * d.y() - e.y() * d.x() >= 0;
+      const double t = std::clamp(e.dot(d) / e.dot(e), 0.0, 1.0);
+      nearest = std::min(nearest, (d - t * e).norm());
+    }
+    return core || nearest <= r;
+  };
+  double area = 0, moment = 0;
+  Vec2 first(0, 0);
+  const AreaProperties p = rounded_area_properties(v, r);
+  for (double x = -0.3; x < 2.3; x += step) {
+    for (double y = -0.3; y < 1.8; y += step) {
+      const Vec2 at(x + step / 2, y + step / 2);
+      if (!inside(at)) continue;
+      area += step * step;
+      first += step * step * at;
+      moment += step * step * (at - p.centroid).squaredNorm();
+    }
+  }
+  // Cells on the outline, about 6.3 m long, err by half a cell each at random: far below 1e-3.
+  EXPECT_NEAR(p.area, area, 1e-3);
+  EXPECT_NEAR((p.centroid - first / area).norm(), 0, 1e-3);
+  EXPECT_NEAR(p.second_moment, moment, 1e-3);
+}
+
+TEST(ChainTest, RefusesWhatIsNoChain) {
+  EXPECT_TRUE(check_chain({{0, 0}, {1, 0}}, false));
+  EXPECT_TRUE(check_chain({{0, 0}, {1, 0}, {0, 1}}, true));
+  EXPECT_TRUE(check_chain({{0, 0}, {2, 0}, {2, 1}, {1, -1}}, false));  // it may cross itself
+  EXPECT_EQ(check_chain({{0, 0}}, false).error().code, ErrorCode::kInvalidValue);
+  EXPECT_EQ(check_chain({{0, 0}, {1, 0}}, true).error().code, ErrorCode::kInvalidValue);
+  EXPECT_EQ(check_chain({{0, 0}, {1, 0}, {1, 0}}, false).error().field, "vertices[2]");
+  EXPECT_EQ(check_chain({{0, 0}, {1, 0}, {0.5, 0}}, false).error().code, ErrorCode::kDegenerateShape);
+  EXPECT_EQ(check_chain({{0, 0}, {1, 0}, {0, 0}}, true).error().code, ErrorCode::kDegenerateShape);
+  EXPECT_EQ(check_chain({{0, 0}, {std::nan(""), 0}}, false).error().field, "vertices[1]");
+  EXPECT_EQ(check_chain(std::vector<Vec2>(kChainVerticesMax + 1), false).error().code, ErrorCode::kInvalidValue);
+}
+
 }  // namespace
 }  // namespace urto

@@ -174,5 +174,65 @@ TYPED_TEST(ManifoldTest, NearestVerticesFindOnePointOrTwo) {
   ASSERT_EQ(corner.count, 1);
 }
 
+// Shapes with a radius whose cores are apart: the deepest point is as deep as GJK says, along GJK's normal.
+TYPED_TEST(ManifoldTest, RoundedShapesAgreeWithTheirDistance) {
+  using S = TypeParam;
+  const unsigned seed = 23;
+  SCOPED_TRACE(seed);
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> place(-2, 2), turn(-3, 3), unit(0, 1);
+  int touching = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const auto make = [&] {
+      const auto count = static_cast<std::uint32_t>(std::uniform_int_distribution<int>(1, 8)(random));
+      return testing_shapes::random_polygon(random, count, 0.8, 0.1 + 0.4 * unit(random));
+    };
+    const Convex<S> a = testing_shapes::cast_to<S>(make()), b = testing_shapes::cast_to<S>(make());
+    const Transform<S> x = at<S>(S(place(random)), S(place(random)), S(turn(random)));
+    const Distance<S> d = gjk_distance(a, b, x);
+    if (d.separation > S(0.02) || d.separation + a.radius + b.radius < S(1e-3)) continue;
+    for (NarrowPhaseKind kind : kBoth) {
+      const auto m = collide<S>(a, b, x, S(0.03), kind);
+      ASSERT_GE(m.count, 1) << "case " << i;
+      S deepest = m.points[0].separation;
+      if (m.count > 1) deepest = min_of(deepest, m.points[1].separation);
+      EXPECT_NEAR(deepest, d.separation, 2e-4) << "case " << i;
+      EXPECT_GT(dot<S>(m.normal, d.normal), S(0.99)) << "case " << i;
+    }
+    ++touching;
+  }
+  EXPECT_GT(touching, 3000);
+}
+
+TYPED_TEST(ManifoldTest, ACapsuleLiesOnTwoPointsAndStandsOnOne) {
+  using S = TypeParam;
+  const Convex<S> floor = box<S>(2, 0.5),
+                  lying = testing_shapes::cast_to<S>(testing_shapes::capsule({-0.5, 0}, {0.5, 0}, 0.25));
+  const auto flat = collide<S>(floor, lying, at<S>(S(0.3), S(0.74)), S(0.02), NarrowPhaseKind::kSat);
+  ASSERT_EQ(flat.count, 2);
+  EXPECT_NEAR(flat.points[0].separation, -0.01, 1e-6);
+  EXPECT_NEAR(std::abs(flat.points[0].p.x() - flat.points[1].p.x()), 1, 1e-6);
+  const auto upright =
+      collide<S>(floor, lying, at<S>(S(0.3), S(1.24), S(1.5707963267948966)), S(0.02), NarrowPhaseKind::kSat);
+  ASSERT_EQ(upright.count, 1);
+  EXPECT_NEAR(upright.points[0].separation, -0.01, 1e-6);
+  EXPECT_NEAR(upright.points[0].p.x(), 0.3, 1e-6);
+}
+
+// A disc that rolls around the end of a capsule keeps its id, and with it what it carries.
+TYPED_TEST(ManifoldTest, ADiscAroundACapsuleKeepsItsId) {
+  using S = TypeParam;
+  const Convex<S> capsule = testing_shapes::cast_to<S>(testing_shapes::capsule({-0.5, 0}, {0.5, 0}, 0.25));
+  for (double turn = -3; turn < 3; turn += 0.01) {
+    const Vec2 end(std::cos(turn) > 0 ? 0.5 : -0.5, 0), center = end + 0.74 * Vec2(std::cos(turn), std::sin(turn));
+    const auto m =
+        collide<S>(capsule, disc<S>(S(0.5)), at<S>(S(center.x()), S(center.y())), S(0.02), NarrowPhaseKind::kSat);
+    ASSERT_EQ(m.count, 1);
+    EXPECT_EQ(m.points[0].id, 0u);
+    EXPECT_NEAR(m.points[0].separation, -0.01, 1e-6);
+    EXPECT_NEAR(m.normal.y(), std::sin(turn), 1e-6);
+  }
+}
+
 }  // namespace
 }  // namespace urto

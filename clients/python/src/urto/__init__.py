@@ -15,7 +15,20 @@ from __future__ import annotations
 
 from urto import aio
 from urto._batch import Batch
-from urto._bodies import Body, BodyInfo, BodyType, Box, Circle, Polygon, Shape, Spawnable, Vector, VectorLike
+from urto._bodies import (
+    Body,
+    BodyInfo,
+    BodyType,
+    Box,
+    Capsule,
+    Chain,
+    Circle,
+    Polygon,
+    Shape,
+    Spawnable,
+    Vector,
+    VectorLike,
+)
 from urto._core import RoomState
 from urto._events import (
     BatchRejected,
@@ -77,6 +90,8 @@ __all__ = [
     "BodyType",
     "Box",
     "Cancelled",
+    "Capsule",
+    "Chain",
     "Circle",
     "ClosedError",
     "ConnectionFailed",

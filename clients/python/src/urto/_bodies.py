@@ -9,7 +9,7 @@ import dataclasses
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Literal, SupportsFloat, TypeAlias
+from typing import Literal, SupportsFloat, TypeAlias, TypedDict
 
 from urto._exceptions import InvalidArgument
 from urto._proto.v1 import scene_pb2, snapshot_pb2
@@ -102,7 +102,7 @@ class _BodyFields:
 
 @dataclass(frozen=True, kw_only=True)
 class Shape(_BodyFields):
-    """Base of `Box`, `Circle` and `Polygon`.
+    """Base of `Box`, `Circle`, `Polygon`, `Capsule` and `Chain`.
 
     Spawned alone a shape is a body of that one shape; then all fields count. Inside `Body(shapes=[...])` only its
     geometry, `position`, `angle` and the fields below do.
@@ -127,10 +127,14 @@ class Shape(_BodyFields):
 
 @dataclass(frozen=True, kw_only=True)
 class Box(Shape):
-    """A rectangle around its position: `width` m along its x axis, `height` m along its y axis, both > 0."""
+    """A rectangle around its position: `width` m along its x axis, `height` m along its y axis, both > 0.
+
+    It is grown by `radius` m ≥ 0 on all sides, which rounds its corners.
+    """
 
     width: float
     height: float
+    radius: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -142,9 +146,36 @@ class Circle(Shape):
 
 @dataclass(frozen=True, kw_only=True)
 class Polygon(Shape):
-    """A simple polygon, convex or concave, of 3 to 64 `vertices` in m relative to its position, either winding."""
+    """A simple polygon, convex or concave, of 3 to 64 `vertices` in m relative to its position, either winding.
+
+    It is grown by `radius` m ≥ 0 on all sides, which rounds its corners; such a one must be convex and have at most 8
+    vertices.
+    """
 
     vertices: Sequence[VectorLike]
+    radius: float = 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Capsule(Shape):
+    """All points within `radius` m > 0 of the segment from `a` to `b`, in m relative to its position."""
+
+    a: VectorLike
+    b: VectorLike
+    radius: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Chain(Shape):
+    """Terrain: a line of 2 to 4096 `vertices` in m relative to its position, closed if it is a `loop`.
+
+    It stops what comes from the right of its direction and lets through what comes from the left: a floor is listed
+    from right to left, the walls of a room clockwise. Bodies slide over its joints as over one line. Not for dynamic
+    bodies.
+    """
+
+    vertices: Sequence[VectorLike]
+    loop: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -171,7 +202,7 @@ def body_to_proto(description: Spawnable) -> scene_pb2.Body:
     elif isinstance(description, Shape):
         shapes = [_shape_to_proto(description, (0.0, 0.0), 0.0)]
     else:
-        raise InvalidArgument(f"spawn takes a Box, Circle, Polygon or Body, not {description!r}")
+        raise InvalidArgument(f"spawn takes a Box, Circle, Polygon, Capsule, Chain or Body, not {description!r}")
     body_type = _TYPE_TO_PROTO.get(description.type)
     if body_type is None:
         raise InvalidArgument(f"type must be 'dynamic', 'static' or 'kinematic', not {description.type!r}")
@@ -214,20 +245,23 @@ def _shape_to_proto(shape: Shape, center: Vector, angle: float) -> scene_pb2.Sha
         message.box.height = to_number("height", shape.height)
         message.box.center.x, message.box.center.y = x, y
         message.box.angle = to_number("angle", angle)
+        message.box.radius = to_number("radius", shape.radius)
     elif isinstance(shape, Circle):
         message.circle.radius = to_number("radius", shape.radius)
         message.circle.center.x, message.circle.center.y = x, y
     elif isinstance(shape, Polygon):
-        cosine, sine = math.cos(angle), math.sin(angle)
-        for index, vertex in enumerate(shape.vertices):
-            vertex_x, vertex_y = to_vector(f"vertices[{index}]", vertex)
-            message.polygon.vertices.add(
-                x=x + cosine * vertex_x - sine * vertex_y, y=y + sine * vertex_x + cosine * vertex_y
-            )
-        if not shape.vertices:
-            raise InvalidArgument("vertices must be 3 to 64 points, there are none")
+        message.polygon.vertices.extend(_placed("vertices", shape.vertices, center, angle))
+        message.polygon.radius = to_number("radius", shape.radius)
+    elif isinstance(shape, Capsule):
+        a, b = _placed("ends", (shape.a, shape.b), center, angle)
+        message.capsule.a.CopyFrom(a)
+        message.capsule.b.CopyFrom(b)
+        message.capsule.radius = to_number("radius", shape.radius)
+    elif isinstance(shape, Chain):
+        message.chain.vertices.extend(_placed("vertices", shape.vertices, center, angle))
+        message.chain.loop = bool(shape.loop)
     else:
-        raise InvalidArgument(f"a shape is a Box, Circle or Polygon, not {shape!r}")
+        raise InvalidArgument(f"a shape is a Box, Circle, Polygon, Capsule or Chain, not {shape!r}")
     if shape.density is not None:
         message.density = to_number("density", shape.density)
     if shape.friction is not None:
@@ -237,6 +271,20 @@ def _shape_to_proto(shape: Shape, center: Vector, angle: float) -> scene_pb2.Sha
     if shape.mask is not None:
         message.mask = _bits("mask", shape.mask)
     return message
+
+
+def _placed(what: str, points: Sequence[VectorLike], center: Vector, angle: float) -> list[scene_pb2.Vector]:
+    """Points relative to a shape's position and angle, in the body's frame."""
+    cosine, sine = math.cos(angle), math.sin(angle)
+    placed = []
+    for index, point in enumerate(points):
+        x, y = to_vector(f"{what}[{index}]", point)
+        placed.append(
+            scene_pb2.Vector(x=center[0] + cosine * x - sine * y, y=center[1] + sine * x + cosine * y)
+        )
+    if not placed:
+        raise InvalidArgument(f"{what} must be points, there are none")
+    return placed
 
 
 def _bits(what: str, value: int) -> int:
@@ -266,29 +314,46 @@ def body_from_proto(body: scene_pb2.Body) -> Body:
     )
 
 
+class _Surface(TypedDict):
+    density: float | None
+    friction: float | None
+    restitution: float
+    category: int | None
+    mask: int | None
+    sensor: bool
+
+
 def _shapes_from_proto(shapes: Iterable[scene_pb2.Shape]) -> Iterable[Shape]:
     for shape in shapes:
-        density = shape.density if shape.HasField("density") else None
-        friction = shape.friction if shape.HasField("friction") else None
-        category = shape.category if shape.HasField("category") else None
-        mask = shape.mask if shape.HasField("mask") else None
+        surface = _Surface(
+            density=shape.density if shape.HasField("density") else None,
+            friction=shape.friction if shape.HasField("friction") else None,
+            restitution=shape.restitution,
+            category=shape.category if shape.HasField("category") else None,
+            mask=shape.mask if shape.HasField("mask") else None,
+            sensor=shape.sensor,
+        )
         kind = shape.WhichOneof("geometry")
         if kind == "box":
             yield Box(
                 width=shape.box.width, height=shape.box.height, position=vector_from_proto(shape.box.center),
-                angle=shape.box.angle, density=density, friction=friction, restitution=shape.restitution,
-                category=category, mask=mask, sensor=shape.sensor,
+                angle=shape.box.angle, radius=shape.box.radius, **surface,
             )  # fmt: skip
         elif kind == "circle":
-            yield Circle(
-                radius=shape.circle.radius, position=vector_from_proto(shape.circle.center), density=density,
-                friction=friction, restitution=shape.restitution, category=category, mask=mask, sensor=shape.sensor,
-            )  # fmt: skip
+            yield Circle(radius=shape.circle.radius, position=vector_from_proto(shape.circle.center), **surface)
         elif kind == "polygon":
-            yield Polygon(
-                vertices=tuple(vector_from_proto(vertex) for vertex in shape.polygon.vertices), density=density,
-                friction=friction, restitution=shape.restitution, category=category, mask=mask, sensor=shape.sensor,
+            yield Polygon(vertices=_vectors(shape.polygon.vertices), radius=shape.polygon.radius, **surface)
+        elif kind == "capsule":
+            yield Capsule(
+                a=vector_from_proto(shape.capsule.a), b=vector_from_proto(shape.capsule.b),
+                radius=shape.capsule.radius, **surface,
             )  # fmt: skip
+        elif kind == "chain":
+            yield Chain(vertices=_vectors(shape.chain.vertices), loop=shape.chain.loop, **surface)
+
+
+def _vectors(vectors: Iterable[scene_pb2.Vector]) -> tuple[Vector, ...]:
+    return tuple(vector_from_proto(vector) for vector in vectors)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -129,6 +129,10 @@ def _draw_layer(canvas: _Canvas, shapes: ShapeSet, layer: Layer, filled: bool) -
     vertices = poses.to_world(layer.polygons.rows, layer.polygons.vertex).tolist()
     for start, end in zip(layer.polygons.start, layer.polygons.start[1:], strict=False):
         canvas.polygon(vertices[start:end], tuple(layer.polygons.color[start].tolist()), thin, filled)
+    points = poses.to_world(layer.lines.rows, layer.lines.vertex).tolist()
+    for start, end in zip(layer.lines.start, layer.lines.start[1:], strict=False):
+        pixels = [canvas.px(x, y) for x, y in points[start:end]]
+        canvas.draw.line(pixels, fill=tuple(layer.lines.color[start].tolist()), width=2 * SUPERSAMPLING, joint="curve")
     centers = poses.to_world(layer.discs.rows, layer.discs.center).tolist()
     angles = poses.angle[layer.discs.rows].tolist()
     radii, colors = layer.discs.radius.tolist(), layer.discs.color.tolist()

@@ -9,7 +9,8 @@ Overlays are 2D, in pixels of that camera: x − left, top − y.
     room/<layer>/edges     the outlines of the boxes
     room/<layer>/discs
     room/<layer>/spokes    a radius of every disc, which shows how it is turned
-    room/<layer>/polygons
+    room/<layer>/polygons  also capsules and what is rounded
+    room/<layer>/lines     chains
     plots/…                what the tick cost and held
     events                 a text log
 """
@@ -233,6 +234,14 @@ class RerunLog:
             mesh = rr.Mesh3D.from_fields(vertex_positions=[], triangle_indices=[], vertex_colors=[])
         log(f"{path}/polygons", mesh)
         log_ids(f"{path}/polygons", polygons.rows)
+        firsts = layer.lines.start[:-1]
+        log(
+            f"{path}/lines",
+            rr.LineStrips3D.from_fields(
+                strips=[] if not firsts else None, colors=layer.lines.color[firsts], radii=rr.Radius.ui_points(1.5)
+            ),
+        )
+        log_ids(f"{path}/lines", layer.lines.rows[firsts])
 
     def _log_poses(self, shapes: ShapeSet, layers: tuple[str, ...]) -> None:
         poses = shapes.poses
@@ -261,6 +270,10 @@ class RerunLog:
             if len(polygons.rows):
                 vertices = _lift(poses.to_world(polygons.rows, polygons.vertex), 0.0)
                 log(f"room/{name}/polygons", rr.Mesh3D.from_fields(vertex_positions=vertices))
+            if len(layer.lines.rows):
+                points = _lift(poses.to_world(layer.lines.rows, layer.lines.vertex), 0.0)
+                strips = [points[a:b] for a, b in zip(layer.lines.start, layer.lines.start[1:], strict=False)]
+                log(f"room/{name}/lines", rr.LineStrips3D.from_fields(strips=strips))
 
     def _to_pixels(self, points: npt.ArrayLike) -> npt.NDArray[np.float64]:
         points = np.asarray(points, dtype=np.float64).reshape(-1, 2)

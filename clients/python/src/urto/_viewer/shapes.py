@@ -9,9 +9,10 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
-from urto._bodies import BodyInfo, Box, Circle, Polygon, Shape, to_vector
+from urto._bodies import BodyInfo, Box, Capsule, Chain, Circle, Polygon, Shape, Vector, to_vector
 from urto._frame import Frame
 from urto._viewer.palette import Color, body_color
+from urto._viewer.outline import capsule_outline, rounded_outline
 from urto._viewer.triangulate import triangulate
 
 Floats = npt.NDArray[np.float64]
@@ -97,25 +98,57 @@ class Polygons:
 
 
 @dataclass
+class Lines:
+    """Chains with v vertices in all: rows, vertices and colours per vertex. A loop's first vertex is its last too."""
+
+    rows: Ints
+    vertex: Floats
+    color: npt.NDArray[np.uint8]
+    start: list[int]  # of each chain in the vertices, and the end
+
+
+@dataclass
 class _Columns:
     box: list[tuple[int, float, float, float, float, float, Color]] = field(default_factory=list)
     disc: list[tuple[int, float, float, float, Color]] = field(default_factory=list)
     vertex: list[tuple[int, float, float, Color]] = field(default_factory=list)
     triangle: list[tuple[int, int, int]] = field(default_factory=list)
     start: list[int] = field(default_factory=lambda: [0])
+    line_vertex: list[tuple[int, float, float, Color]] = field(default_factory=list)
+    line_start: list[int] = field(default_factory=lambda: [0])
 
     def add(self, row: int, shape: Shape, color: Color) -> None:
         x, y = to_vector("position", shape.position)
-        if isinstance(shape, Box):
+        if isinstance(shape, Box) and shape.radius > 0:
+            self._add_polygon(row, rounded_outline(_box_corners(shape, x, y), shape.radius), color)
+        elif isinstance(shape, Box):
             self.box.append((row, x, y, shape.angle, shape.width / 2, shape.height / 2, color))
         elif isinstance(shape, Circle):
             self.disc.append((row, x, y, shape.radius, color))
         elif isinstance(shape, Polygon):
             points = [to_vector("vertex", vertex) for vertex in shape.vertices]
-            first = len(self.vertex)
-            self.triangle.extend((first + a, first + b, first + c) for a, b, c in triangulate(points))
-            self.vertex.extend((row, point_x, point_y, color) for point_x, point_y in points)
-            self.start.append(len(self.vertex))
+            self._add_polygon(row, rounded_outline(points, shape.radius) if shape.radius > 0 else points, color)
+        elif isinstance(shape, Capsule):
+            outline = capsule_outline(to_vector("a", shape.a), to_vector("b", shape.b), shape.radius)
+            self._add_polygon(row, outline, color)
+        elif isinstance(shape, Chain):
+            points = [to_vector("vertex", vertex) for vertex in shape.vertices]
+            points += points[:1] if shape.loop else []
+            self.line_vertex.extend((row, point_x, point_y, color) for point_x, point_y in points)
+            self.line_start.append(len(self.line_vertex))
+
+    def _add_polygon(self, row: int, points: list[Vector], color: Color) -> None:
+        first = len(self.vertex)
+        self.triangle.extend((first + a, first + b, first + c) for a, b, c in triangulate(points))
+        self.vertex.extend((row, point_x, point_y, color) for point_x, point_y in points)
+        self.start.append(len(self.vertex))
+
+
+def _box_corners(shape: Box, x: float, y: float) -> list[Vector]:
+    cosine, sine = math.cos(shape.angle), math.sin(shape.angle)
+    half_x, half_y = shape.width / 2, shape.height / 2
+    corners = [(-half_x, -half_y), (half_x, -half_y), (half_x, half_y), (-half_x, half_y)]
+    return [(x + cosine * u - sine * v, y + sine * u + cosine * v) for u, v in corners]
 
 
 class Layer:
@@ -137,6 +170,11 @@ class Layer:
             _rows(entry[0] for entry in columns.vertex), vertices[:, 1:3],
             _colors(entry[3] for entry in columns.vertex),
             np.array(columns.triangle, dtype=np.uint32).reshape(-1, 3), columns.start,
+        )  # fmt: skip
+        lines = np.array([entry[:3] for entry in columns.line_vertex], dtype=np.float64).reshape(-1, 3)
+        self.lines = Lines(
+            _rows(entry[0] for entry in columns.line_vertex), lines[:, 1:3],
+            _colors(entry[3] for entry in columns.line_vertex), columns.line_start,
         )  # fmt: skip
 
 
@@ -179,6 +217,7 @@ class ShapeSet:
         points = [
             layer.boxes.corners(self.poses).reshape(-1, 2),
             self.poses.to_world(layer.polygons.rows, layer.polygons.vertex),
+            self.poses.to_world(layer.lines.rows, layer.lines.vertex),
         ]
         centers = self.poses.to_world(layer.discs.rows, layer.discs.center)
         points += [centers - layer.discs.radius[:, None], centers + layer.discs.radius[:, None]]

@@ -68,16 +68,36 @@ class Body(_message.Message):
     def __init__(self, name: _Optional[str] = ..., tags: _Optional[_Iterable[str]] = ..., type: _Optional[_Union[BodyType, str]] = ..., position: _Optional[_Union[Vector, _Mapping]] = ..., angle: _Optional[float] = ..., velocity: _Optional[_Union[Vector, _Mapping]] = ..., angular_velocity: _Optional[float] = ..., shapes: _Optional[_Iterable[_Union[Shape, _Mapping]]] = ..., mass: _Optional[float] = ..., linear_damping: _Optional[float] = ..., angular_damping: _Optional[float] = ..., gravity_scale: _Optional[float] = ..., fixed_rotation: bool = ..., awake: bool = ..., color: _Optional[int] = ...) -> None: ...
 
 class Box(_message.Message):
-    __slots__ = ["angle", "center", "height", "width"]
+    __slots__ = ["angle", "center", "height", "radius", "width"]
     ANGLE_FIELD_NUMBER: _ClassVar[int]
     CENTER_FIELD_NUMBER: _ClassVar[int]
     HEIGHT_FIELD_NUMBER: _ClassVar[int]
+    RADIUS_FIELD_NUMBER: _ClassVar[int]
     WIDTH_FIELD_NUMBER: _ClassVar[int]
     angle: float
     center: Vector
     height: float
+    radius: float
     width: float
-    def __init__(self, width: _Optional[float] = ..., height: _Optional[float] = ..., center: _Optional[_Union[Vector, _Mapping]] = ..., angle: _Optional[float] = ...) -> None: ...
+    def __init__(self, width: _Optional[float] = ..., height: _Optional[float] = ..., center: _Optional[_Union[Vector, _Mapping]] = ..., angle: _Optional[float] = ..., radius: _Optional[float] = ...) -> None: ...
+
+class Capsule(_message.Message):
+    __slots__ = ["a", "b", "radius"]
+    A_FIELD_NUMBER: _ClassVar[int]
+    B_FIELD_NUMBER: _ClassVar[int]
+    RADIUS_FIELD_NUMBER: _ClassVar[int]
+    a: Vector
+    b: Vector
+    radius: float
+    def __init__(self, a: _Optional[_Union[Vector, _Mapping]] = ..., b: _Optional[_Union[Vector, _Mapping]] = ..., radius: _Optional[float] = ...) -> None: ...
+
+class Chain(_message.Message):
+    __slots__ = ["loop", "vertices"]
+    LOOP_FIELD_NUMBER: _ClassVar[int]
+    VERTICES_FIELD_NUMBER: _ClassVar[int]
+    loop: bool
+    vertices: _containers.RepeatedCompositeFieldContainer[Vector]
+    def __init__(self, vertices: _Optional[_Iterable[_Union[Vector, _Mapping]]] = ..., loop: bool = ...) -> None: ...
 
 class Circle(_message.Message):
     __slots__ = ["center", "radius"]
@@ -116,10 +136,12 @@ class PointAttractor(_message.Message):
     def __init__(self, center: _Optional[_Union[Vector, _Mapping]] = ..., strength: _Optional[float] = ..., softening: _Optional[float] = ...) -> None: ...
 
 class Polygon(_message.Message):
-    __slots__ = ["vertices"]
+    __slots__ = ["radius", "vertices"]
+    RADIUS_FIELD_NUMBER: _ClassVar[int]
     VERTICES_FIELD_NUMBER: _ClassVar[int]
+    radius: float
     vertices: _containers.RepeatedCompositeFieldContainer[Vector]
-    def __init__(self, vertices: _Optional[_Iterable[_Union[Vector, _Mapping]]] = ...) -> None: ...
+    def __init__(self, vertices: _Optional[_Iterable[_Union[Vector, _Mapping]]] = ..., radius: _Optional[float] = ...) -> None: ...
 
 class Scene(_message.Message):
     __slots__ = ["bodies", "description", "fields", "name", "view", "world"]
@@ -138,9 +160,11 @@ class Scene(_message.Message):
     def __init__(self, name: _Optional[str] = ..., description: _Optional[str] = ..., world: _Optional[_Union[WorldSettings, _Mapping]] = ..., bodies: _Optional[_Iterable[_Union[Body, _Mapping]]] = ..., fields: _Optional[_Iterable[_Union[ForceField, _Mapping]]] = ..., view: _Optional[_Union[View, _Mapping]] = ...) -> None: ...
 
 class Shape(_message.Message):
-    __slots__ = ["box", "category", "circle", "density", "friction", "mask", "polygon", "restitution", "sensor"]
+    __slots__ = ["box", "capsule", "category", "chain", "circle", "density", "friction", "mask", "polygon", "restitution", "sensor"]
     BOX_FIELD_NUMBER: _ClassVar[int]
+    CAPSULE_FIELD_NUMBER: _ClassVar[int]
     CATEGORY_FIELD_NUMBER: _ClassVar[int]
+    CHAIN_FIELD_NUMBER: _ClassVar[int]
     CIRCLE_FIELD_NUMBER: _ClassVar[int]
     DENSITY_FIELD_NUMBER: _ClassVar[int]
     FRICTION_FIELD_NUMBER: _ClassVar[int]
@@ -149,7 +173,9 @@ class Shape(_message.Message):
     RESTITUTION_FIELD_NUMBER: _ClassVar[int]
     SENSOR_FIELD_NUMBER: _ClassVar[int]
     box: Box
+    capsule: Capsule
     category: int
+    chain: Chain
     circle: Circle
     density: float
     friction: float
@@ -157,7 +183,7 @@ class Shape(_message.Message):
     polygon: Polygon
     restitution: float
     sensor: bool
-    def __init__(self, box: _Optional[_Union[Box, _Mapping]] = ..., circle: _Optional[_Union[Circle, _Mapping]] = ..., polygon: _Optional[_Union[Polygon, _Mapping]] = ..., density: _Optional[float] = ..., friction: _Optional[float] = ..., restitution: _Optional[float] = ..., category: _Optional[int] = ..., mask: _Optional[int] = ..., sensor: bool = ...) -> None: ...
+    def __init__(self, box: _Optional[_Union[Box, _Mapping]] = ..., circle: _Optional[_Union[Circle, _Mapping]] = ..., polygon: _Optional[_Union[Polygon, _Mapping]] = ..., capsule: _Optional[_Union[Capsule, _Mapping]] = ..., chain: _Optional[_Union[Chain, _Mapping]] = ..., density: _Optional[float] = ..., friction: _Optional[float] = ..., restitution: _Optional[float] = ..., category: _Optional[int] = ..., mask: _Optional[int] = ..., sensor: bool = ...) -> None: ...
 
 class Spring(_message.Message):
     __slots__ = ["center", "damping", "stiffness"]
