@@ -313,6 +313,7 @@ std::uint32_t create_body(WorldData<S>& world, const BodyDef& def) {
   count_needs(world, slot, +1);
   const bool moving = def.velocity != Vec2(0, 0) || def.angular_velocity != 0;
   if (def.type == BodyType::kKinematic ? moving : def.awake) wake_body(world, slot);
+  refresh_places(world, slot);
   const bool still = def.type == BodyType::kStatic;
   for (Proxy p = body.first_shape; p != kNone; p = world.shapes[p].next) {
     Shape<S>& shape = world.shapes[p];

@@ -65,6 +65,7 @@ void refresh_bounds(WorldData<S>& world, std::uint32_t slot) {
 
 template <class S>
 void reset_bounds(WorldData<S>& world, std::uint32_t slot) {
+  refresh_places(world, slot);
   for (Proxy proxy = world.bodies[slot].first_shape; proxy != kNone; proxy = world.shapes[proxy].next) {
     Shape<S>& shape = world.shapes[proxy];
     shape.fat = swept_bounds(world, proxy).expanded(shape.reach + shape.margin);

@@ -26,17 +26,18 @@ struct ManifoldPoint {
   std::uint32_t unused = 0;  // no padding
 };
 
-// Two shapes whose bounds overlap, and where they touch.
+// Two shapes whose bounds overlap, and where they touch. While a contact has a lane (contact_set.h), its manifold is
+// kept there, and the one here is of an earlier time: settled() tells where they touch.
 template <class S>
 struct Contact {
   std::uint32_t shape_a = kNone, shape_b = kNone;  // a < b
   std::uint32_t body_a = kNone, body_b = kNone;
   std::uint32_t next[2] = {kNone, kNone};  // edges of the bodies' contact lists
   std::uint32_t prev[2] = {kNone, kNone};
-  std::uint32_t active_index = kNone;
+  std::uint32_t color = kNone;  // of its lane in the contact set; kNone: it has none
+  std::uint32_t index = kNone;  // of its lane within the colour, or in the list of active contacts
   std::uint32_t flags = 0;
-  std::uint32_t count = 0;  // of points
-  std::uint32_t unused = 0;
+  std::uint32_t count = 0;  // of points; with a lane: any but 0
   S friction = 0, restitution = 0;
   S approach = 0;    // m/s ≥ 0, how fast the surfaces closed in at the start of the step
   S nx = 0, ny = 0;  // unit normal from a to b, world frame
@@ -45,6 +46,7 @@ struct Contact {
   bool alive() const { return (flags & kContactAlive) != 0; }
   bool touching() const { return (flags & kContactTouching) != 0; }
   bool sensor() const { return (flags & kContactSensor) != 0; }
+  bool has_lane() const { return color != kNone; }
 };
 
 static_assert(sizeof(ManifoldPoint<float>) == 48 && sizeof(ManifoldPoint<double>) == 88);

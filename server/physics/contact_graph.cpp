@@ -44,22 +44,41 @@ void unlink_edge(WorldData<S>& world, std::uint32_t contact, std::uint32_t side,
 }
 
 template <class S>
-void activate(WorldData<S>& world, std::uint32_t contact) {
+void enlist(WorldData<S>& world, std::uint32_t contact) {
   Contact<S>& c = world.contacts[contact];
-  if (c.active_index != kNone) return;
-  c.active_index = static_cast<std::uint32_t>(world.active.size());
-  world.active.push_back(contact);
+  c.index = static_cast<std::uint32_t>(world.active.size());
+  world.active.push_back({contact, c.shape_a, c.shape_b, c.sensor() ? 1u : 0u});
+}
+
+template <class S>
+void delist(WorldData<S>& world, std::uint32_t contact) {
+  const std::uint32_t index = world.contacts[contact].index;
+  const ActiveContact last = world.active.back();
+  world.active[index] = last;
+  world.contacts[last.contact].index = index;
+  world.active.pop_back();
+  world.contacts[contact].index = kNone;
+}
+
+template <class S>
+void activate(WorldData<S>& world, std::uint32_t contact) {
+  const Contact<S>& c = world.contacts[contact];
+  if (c.index != kNone) return;
+  if (world.settings.solver == SolverKind::kSoftStep && c.count > 0 && !c.sensor()) {
+    insert_lane(world, contact);
+  } else {
+    enlist(world, contact);
+  }
 }
 
 template <class S>
 void deactivate(WorldData<S>& world, std::uint32_t contact) {
-  const std::uint32_t index = world.contacts[contact].active_index;
-  if (index == kNone) return;
-  const std::uint32_t last = world.active.back();
-  world.active[index] = last;
-  world.contacts[last].active_index = index;
-  world.active.pop_back();
-  world.contacts[contact].active_index = kNone;
+  const Contact<S>& c = world.contacts[contact];
+  if (c.has_lane()) {
+    remove_lane(world, contact);
+  } else if (c.index != kNone) {
+    delist(world, contact);
+  }
 }
 
 template <class S>
@@ -171,8 +190,24 @@ void put_to_sleep(WorldData<S>& world, std::uint32_t slot) {
   world.motions[slot] = Motion<S>{};
   for_each_contact_of(world, slot, [&](std::uint32_t contact) {
     const Contact<S>& c = world.contacts[contact];
-    if (!world.bodies[c.body_a].awake() && !world.bodies[c.body_b].awake()) deactivate(world, contact);
+    const bool active = world.bodies[c.body_a].awake() || world.bodies[c.body_b].awake();
+    // What an awake body still touches is looked at anew, so that it wakes this one again.
+    if (!active) deactivate(world, contact);
+    if (active && c.has_lane() && body.dynamic()) release_lane(world, contact);
   });
+  refresh_places(world, slot);
+}
+
+template <class S>
+void give_lane(WorldData<S>& world, std::uint32_t contact) {
+  delist(world, contact);
+  insert_lane(world, contact);
+}
+
+template <class S>
+void release_lane(WorldData<S>& world, std::uint32_t contact) {
+  remove_lane(world, contact);
+  enlist(world, contact);
 }
 
 #define URTO_INSTANTIATE(S)                                           \
@@ -181,6 +216,8 @@ void put_to_sleep(WorldData<S>& world, std::uint32_t slot) {
   template void wake_body(WorldData<S>&, std::uint32_t);              \
   template void wake_neighbours(WorldData<S>&, std::uint32_t);        \
   template void put_to_sleep(WorldData<S>&, std::uint32_t);           \
+  template void give_lane(WorldData<S>&, std::uint32_t);              \
+  template void release_lane(WorldData<S>&, std::uint32_t);           \
   template ContactEvent end_event(const WorldData<S>&, const Contact<S>&);
 URTO_INSTANTIATE(float)
 URTO_INSTANTIATE(double)

@@ -21,6 +21,12 @@ void wake_body(WorldData<S>& world, std::uint32_t slot);
 template <class S>
 void wake_neighbours(WorldData<S>& world, std::uint32_t slot);
 
+// Moves an active contact that touches into the contact set, and back.
+template <class S>
+void give_lane(WorldData<S>& world, std::uint32_t contact);
+template <class S>
+void release_lane(WorldData<S>& world, std::uint32_t contact);
+
 // Takes one body out of the awake ones; its contacts become inactive unless the other body is awake.
 template <class S>
 void put_to_sleep(WorldData<S>& world, std::uint32_t slot);

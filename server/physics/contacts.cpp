@@ -1,11 +1,99 @@
 #include "physics/contacts.h"
 
+#include <algorithm>
+
 #include "physics/constants.h"
 #include "physics/contact_graph.h"
+#include "physics/narrow_phase/box_kernels.h"
 #include "physics/narrow_phase/manifold.h"
+#include "physics/solver/contact_kernels.h"
 
 namespace urto {
 namespace {
+
+template <class S>
+struct WorldManifold {
+  Vec<S> normal;   // from a to b, world frame
+  Vec<S> between;  // m, from a's centre of mass to b's
+  Vec<S> anchors[2];
+  LocalManifold<S> local;
+};
+
+template <class S>
+WorldManifold<S> manifold_of(const WorldData<S>& world, Proxy shape_a, Proxy shape_b, S reach) {
+  const Body<S>&a = world.bodies[world.shapes[shape_a].body], &b = world.bodies[world.shapes[shape_b].body];
+  const Transform<S> pose_a = a.pose(), b_in_a = pose_a.inverse_times(b.pose());
+  WorldManifold<S> m;
+  m.local = collide(world.convexes[shape_a], world.convexes[shape_b], b_in_a, reach, world.settings.narrow_phase);
+  m.normal = pose_a.q.apply(m.local.normal);
+  m.between = Vec<S>(b.x - a.x, b.y - a.y);
+  for (int i = 0; i < m.local.count; ++i) m.anchors[i] = pose_a.q.apply(m.local.points[i].p - a.local_center());
+  return m;
+}
+
+// Touching contacts: their lanes ---------------------------------------------------------------------------------
+
+template <class S>
+void write_manifold(const WorldManifold<S>& m, std::uint32_t lane, ManifoldLanes<S>& out) {
+  out.nx[lane] = m.normal.x();
+  out.ny[lane] = m.normal.y();
+  out.between_x[lane] = m.between.x();
+  out.between_y[lane] = m.between.y();
+  out.count[lane] = S(m.local.count);
+  for (int i = 0; i < m.local.count; ++i) {
+    out.x[i][lane] = m.anchors[i].x();
+    out.y[i][lane] = m.anchors[i].y();
+    out.separation[i][lane] = m.local.points[i].separation;
+    out.id[i][lane] = S(m.local.points[i].id);
+  }
+}
+
+template <class S>
+void collide_lanes(const WorldData<S>& world, const ContactBlock<S>& block, const ContactBlockRest<S>& rest,
+                   ManifoldLanes<S>& out) {
+  if (rest.boxes != 0) box_kernels<S>().collide(world.places.data(), rest.shape_a, rest.shape_b, out);
+  const std::uint32_t used = block.count < 32 ? (1u << block.count) - 1 : ~0u;
+  for (std::uint32_t others = used & ~rest.boxes; others != 0; others &= others - 1) {
+    const auto lane = static_cast<std::uint32_t>(__builtin_ctz(others));
+    const Proxy a = rest.shape_a[lane], b = rest.shape_b[lane];
+    write_manifold(manifold_of(world, a, b, reach_of(world.places[a], world.places[b])), lane, out);
+  }
+}
+
+template <class S>
+void update_lanes(WorldData<S>& world) {
+  std::vector<std::uint32_t>& parted = world.scratch.parted;
+  parted.clear();
+  ManifoldLanes<S> manifolds{};
+  const ContactPasses<S>& passes = contact_passes<S>();
+  for (auto& color : world.touching.colors) {
+    for (std::size_t i = 0; i < color.blocks.size(); ++i) {
+      ContactBlock<S>& block = color.blocks[i];
+      ContactBlockRest<S>& rest = color.rest[i];
+      collide_lanes(world, block, rest, manifolds);
+      passes.take(world.motions.data(), manifolds, block, rest);
+      for (std::uint32_t lane = 0; lane < block.count; ++lane)
+        if (manifolds.count[lane] == S(0)) parted.push_back(rest.contact[lane]);
+    }
+  }
+  world.touching.current = true;
+}
+
+// They join the contacts that do not touch, with an event if they had touched.
+template <class S>
+void release_parted(WorldData<S>& world) {
+  for (std::uint32_t slot : world.scratch.parted) {
+    release_lane(world, slot);
+    Contact<S>& c = world.contacts[slot];
+    c.count = 0;
+    c.points[0] = c.points[1] = ManifoldPoint<S>{};
+    if (!c.touching()) continue;
+    c.flags ^= kContactTouching;
+    world.events.push_back(end_event(world, c));
+  }
+}
+
+// Contacts without a lane ----------------------------------------------------------------------------------------
 
 template <class S>
 void carry_over(const ManifoldPoint<S>* old, std::uint32_t old_count, ManifoldPoint<S>& point) {
@@ -18,32 +106,26 @@ void carry_over(const ManifoldPoint<S>* old, std::uint32_t old_count, ManifoldPo
   }
 }
 
+// Sets a record's manifold; impulses stay with their features.
 template <class S>
 void update_manifold(const WorldData<S>& world, Contact<S>& c) {
-  const Body<S>&a = world.bodies[c.body_a], &b = world.bodies[c.body_b];
-  const Transform<S> pose_a = a.pose(), b_in_a = pose_a.inverse_times(b.pose());
-  const S reach = c.sensor() ? S(0) : reach_of(world, c);
-  const LocalManifold<S> m =
-      collide(world.convexes[c.shape_a], world.convexes[c.shape_b], b_in_a, reach, world.settings.narrow_phase);
+  const S reach = c.sensor() ? S(0) : reach_of(world.places[c.shape_a], world.places[c.shape_b]);
+  const WorldManifold<S> m = manifold_of(world, c.shape_a, c.shape_b, reach);
   const ManifoldPoint<S> old[2] = {c.points[0], c.points[1]};
   const std::uint32_t old_count = c.count;
-  const Vec<S> normal = pose_a.q.apply(m.normal);
-  c.nx = normal.x();
-  c.ny = normal.y();
-  c.count = static_cast<std::uint32_t>(m.count);
-  const S abx = b.x - a.x, aby = b.y - a.y;
+  c.nx = m.normal.x();
+  c.ny = m.normal.y();
+  c.count = static_cast<std::uint32_t>(m.local.count);
   for (int i = 0; i < 2; ++i) {
     ManifoldPoint<S>& p = c.points[i];
     p = ManifoldPoint<S>{};
-    if (i >= m.count) continue;
-    // From a's centre of mass; b's anchor is the same world point from b's.
-    const Vec<S> r = pose_a.q.apply(m.points[i].p - a.local_center());
-    p.ax = r.x();
-    p.ay = r.y();
-    p.bx = r.x() - abx;
-    p.by = r.y() - aby;
-    p.separation = m.points[i].separation;
-    p.id = m.points[i].id;
+    if (i >= m.local.count) continue;
+    p.ax = m.anchors[i].x();
+    p.ay = m.anchors[i].y();
+    p.bx = p.ax - m.between.x();
+    p.by = p.ay - m.between.y();
+    p.separation = m.local.points[i].separation;
+    p.id = m.local.points[i].id;
     carry_over(old, old_count, p);
   }
 }
@@ -57,18 +139,86 @@ S approach_speed(const WorldData<S>& world, const Contact<S>& c) {
   return max_of(S(0), -(vx * c.nx + vy * c.ny));
 }
 
+// Looks at what does not touch yet: `parted` get what has left the other's bounds, `met` what has a manifold now.
 template <class S>
-void update_contact(WorldData<S>& world, Contact<S>& c) {
-  if (world.settings.solver == SolverKind::kThesis && !c.sensor())
-    return;  // it looks for itself, in every sub-iteration
-  update_manifold(world, c);
-  if (c.count == 0) return;
-  if (!c.touching()) c.approach = approach_speed(world, c);
-  if (c.sensor()) return;
-  // Woken after the loop: waking makes further contacts active.
-  if (!world.bodies[c.body_a].awake() && world.bodies[c.body_a].dynamic()) world.scratch.proxies.push_back(c.body_a);
-  if (!world.bodies[c.body_b].awake() && world.bodies[c.body_b].dynamic()) world.scratch.proxies.push_back(c.body_b);
-}
+class ActiveContacts {
+ public:
+  explicit ActiveContacts(WorldData<S>& world)
+      : world_(world), lanes_(world.settings.solver == SolverKind::kSoftStep) {}
+
+  void update() {
+    world_.scratch.parted.clear();
+    world_.scratch.met.clear();
+    for (std::size_t i = 0; i < world_.active.size(); ++i) look_at(world_.active[i]);
+    flush_boxes();
+    for (std::uint32_t slot : world_.scratch.parted) destroy_contact(world_, slot);
+    wake_and_insert();
+  }
+
+ private:
+  void look_at(const ActiveContact& active) {
+    if (!world_.shapes[active.shape_a].fat.overlaps(world_.shapes[active.shape_b].fat)) {
+      world_.scratch.parted.push_back(active.contact);
+    } else if (lanes_ && world_.places[active.shape_a].box > S(0) && world_.places[active.shape_b].box > S(0) &&
+               !active.sensor) {
+      add_boxes(active);
+    } else {
+      update_one(world_.contacts[active.contact], active.contact);
+    }
+  }
+
+  // Plain boxes are looked at side by side.
+  void add_boxes(const ActiveContact& active) {
+    batch_.a[batch_.count] = active.shape_a;
+    batch_.b[batch_.count] = active.shape_b;
+    batch_.contact[batch_.count] = active.contact;
+    if (++batch_.count == static_cast<std::uint32_t>(kLanes<S>)) flush_boxes();
+  }
+
+  void flush_boxes() {
+    if (batch_.count == 0) return;
+    box_kernels<S>().collide(world_.places.data(), batch_.a, batch_.b, batch_.manifolds);
+    for (std::uint32_t lane = 0; lane < batch_.count; ++lane)
+      if (batch_.manifolds.count[lane] > S(0)) met(batch_.contact[lane]);
+    batch_.count = 0;
+  }
+
+  void update_one(Contact<S>& c, std::uint32_t slot) {
+    if (world_.settings.solver == SolverKind::kThesis && !c.sensor())
+      return;  // it looks for itself, in every sub-iteration
+    update_manifold(world_, c);
+    if (c.count == 0) return;
+    if (!c.touching()) c.approach = approach_speed(world_, c);
+    if (!c.sensor()) met(slot);
+  }
+
+  void met(std::uint32_t slot) { world_.scratch.met.push_back(slot); }
+
+  // After the loop: waking makes further contacts active.
+  void wake_and_insert() {
+    for (std::uint32_t slot : world_.scratch.met) {
+      Contact<S>& c = world_.contacts[slot];
+      c.count = c.count > 0 ? c.count : 1;  // which it is, the lane will know
+      if (lanes_) give_lane(world_, slot);
+    }
+    for (std::uint32_t slot : world_.scratch.met) {
+      for (std::uint32_t body : {world_.contacts[slot].body_a, world_.contacts[slot].body_b})
+        if (!world_.bodies[body].awake() && world_.bodies[body].dynamic()) wake_body(world_, body);
+    }
+  }
+
+  struct Batch {
+    std::uint32_t a[kLanes<S>] = {}, b[kLanes<S>] = {}, contact[kLanes<S>] = {};
+    std::uint32_t count = 0;
+    ManifoldLanes<S> manifolds{};
+  };
+
+  WorldData<S>& world_;
+  const bool lanes_;
+  Batch batch_;
+};
+
+// Events ---------------------------------------------------------------------------------------------------------
 
 template <class S>
 ContactEvent begin_event(const WorldData<S>& world, const Contact<S>& c) {
@@ -90,45 +240,48 @@ bool meets(const Contact<S>& c) {
   return false;
 }
 
-}  // namespace
-
+// Bit mask of the lanes whose surfaces meet or push. A point that is not there does neither.
 template <class S>
-S reach_of(const WorldData<S>& world, const Contact<S>& c) {
-  const Shape<S>&a = world.shapes[c.shape_a], &b = world.shapes[c.shape_b];
-  const Body<S>&ba = world.bodies[c.body_a], &bb = world.bodies[c.body_b];
-  const Motion<S>&ma = world.motions[c.body_a], &mb = world.motions[c.body_b];
-  const S reach = min_of(a.reach, b.reach);
-  const S dvx = mb.vx - ma.vx, dvy = mb.vy - ma.vy;
-  const S turning = absolute(ma.w) * ba.extent_max * S(ba.dynamic()) + absolute(mb.w) * bb.extent_max * S(bb.dynamic());
-  const S way = (std::sqrt(dvx * dvx + dvy * dvy) + turning) * S(world.settings.time_step);
-  // What closes in by more than half a thickness is the business of continuous collision.
-  S bound = S(kCoordinateMax);
-  if (ba.dynamic()) bound = min_of(bound, ba.extent_min);
-  if (bb.dynamic()) bound = min_of(bound, bb.extent_min);
-  return reach + min_of(way, S(0.5) * bound);
+std::uint32_t meeting_lanes(const ContactBlock<S>& block) {
+  std::uint32_t meeting = 0;
+  for (std::uint32_t lane = 0; lane < block.count; ++lane) {
+    const PointLanes<S>&p = block.points[0], &q = block.points[1];
+    const bool meet = (p.separation[lane] <= S(0)) | (p.total_normal_impulse[lane] > S(0)) |
+                      (q.separation[lane] <= S(0)) | (q.total_normal_impulse[lane] > S(0));
+    meeting |= static_cast<std::uint32_t>(meet) << lane;
+  }
+  return meeting;
 }
 
 template <class S>
-void update_contacts(WorldData<S>& world) {
-  std::vector<Proxy>& to_wake = world.scratch.proxies;
-  to_wake.clear();
-  // Backwards: destroying swaps the last active contact into the hole, and that one has been seen.
-  for (std::size_t i = world.active.size(); i-- > 0;) {
-    const std::uint32_t slot = world.active[i];
-    Contact<S>& c = world.contacts[slot];
-    if (!world.shapes[c.shape_a].fat.overlaps(world.shapes[c.shape_b].fat)) {
-      destroy_contact(world, slot);
-    } else {
-      update_contact(world, c);
+void report_lane(WorldData<S>& world, std::uint32_t slot, const ContactBlockRest<S>& rest, std::uint32_t lane) {
+  world.contacts[slot].flags ^= kContactTouching;
+  Contact<S> c = settled(world, slot);
+  c.approach = max_of(S(0), -rest.approach[0][lane]);
+  world.events.push_back(c.touching() ? begin_event(world, c) : end_event(world, c));
+}
+
+template <class S>
+void report_lanes(WorldData<S>& world) {
+  for (auto& color : world.touching.colors) {
+    for (std::size_t i = 0; i < color.blocks.size(); ++i) {
+      ContactBlockRest<S>& rest = color.rest[i];
+      const std::uint32_t meeting = meeting_lanes(color.blocks[i]);
+      for (std::uint32_t changed = meeting ^ rest.begun; changed != 0; changed &= changed - 1) {
+        const auto lane = static_cast<std::uint32_t>(__builtin_ctz(changed));
+        report_lane(world, rest.contact[lane], rest, lane);
+      }
+      rest.begun = meeting;
     }
   }
-  for (std::uint32_t slot : to_wake) wake_body(world, slot);
 }
 
 template <class S>
-void report_contact_events(WorldData<S>& world) {
-  for (std::uint32_t slot : world.active) {
-    Contact<S>& c = world.contacts[slot];
+void report_active(WorldData<S>& world) {
+  for (const ActiveContact& active : world.active) {
+    // With lanes, only sensors can touch without one.
+    if (world.settings.solver == SolverKind::kSoftStep && !active.sensor) continue;
+    Contact<S>& c = world.contacts[active.contact];
     const bool meeting = meets(c);
     if (meeting == c.touching()) continue;
     c.flags ^= kContactTouching;
@@ -136,10 +289,33 @@ void report_contact_events(WorldData<S>& world) {
   }
 }
 
+}  // namespace
+
+template <class S>
+S reach_of(const Place<S>& a, const Place<S>& b) {
+  const S wx = b.way_x - a.way_x, wy = b.way_y - a.way_y;
+  const S way = std::sqrt(wx * wx + wy * wy) + (a.turn + b.turn);
+  return min_of(a.reach, b.reach) + min_of(way, min_of(a.bound, b.bound));
+}
+
+template <class S>
+void update_contacts(WorldData<S>& world) {
+  refresh_awake_places(world);
+  ActiveContacts<S>(world).update();
+  update_lanes(world);
+  release_parted(world);
+}
+
+template <class S>
+void report_contact_events(WorldData<S>& world) {
+  report_lanes(world);
+  report_active(world);
+}
+
 #define URTO_INSTANTIATE(S)                           \
   template void update_contacts(WorldData<S>&);       \
   template void report_contact_events(WorldData<S>&); \
-  template S reach_of(const WorldData<S>&, const Contact<S>&);
+  template S reach_of(const Place<S>&, const Place<S>&);
 URTO_INSTANTIATE(float)
 URTO_INSTANTIATE(double)
 #undef URTO_INSTANTIATE

@@ -11,12 +11,20 @@
 #include "physics/body.h"
 #include "physics/broad_phase/broad_phase.h"
 #include "physics/contact.h"
+#include "physics/contact_set.h"
 #include "physics/model.h"
 #include "physics/pair_set.h"
+#include "physics/places.h"
 #include "physics/shape.h"
 #include "physics/world.h"
 
 namespace urto {
+
+// A contact with an awake body and no lane, with what is asked of it each step at hand.
+struct ActiveContact {
+  std::uint32_t contact, shape_a, shape_b;
+  std::uint32_t sensor;  // 0 or 1
+};
 
 // Buffers that live for one phase; kept for their capacity only.
 template <class S>
@@ -24,10 +32,10 @@ struct Scratch {
   std::vector<std::pair<Proxy, Proxy>> pairs;
   std::vector<Proxy> proxies;
   std::vector<std::uint32_t> stack;
-  std::vector<std::uint32_t> parent;   // union-find, by awake index
-  std::vector<std::uint8_t> restless;  // by root
-  std::vector<std::uint64_t> colors;   // by body slot
-  std::vector<std::uint32_t> fast;     // body slots
+  std::vector<std::uint32_t> parent;       // union-find, by awake index
+  std::vector<std::uint8_t> restless;      // by root
+  std::vector<std::uint32_t> fast;         // body slots
+  std::vector<std::uint32_t> parted, met;  // contact slots
 };
 
 template <class S>
@@ -45,13 +53,15 @@ struct WorldData {
   std::vector<std::uint32_t> free_contacts;
 
   std::vector<std::uint32_t> awake;   // body slots: awake and not static
-  std::vector<std::uint32_t> active;  // contact slots with an awake body
+  std::vector<ActiveContact> active;  // contacts with an awake body and no lane
   std::vector<Proxy> moved;           // left their fat bounds since pairs were last sought
 
   // Derived: rebuilt by restore.
   Needs needs;
   Model model;
   std::unique_ptr<BroadPhase<S>> broad_phase;
+  ContactSet<S> touching;        // the lanes of contacts with an awake body that touch
+  std::vector<Place<S>> places;  // by shape slot: as of the start of the step, or of falling asleep
   PairSet pair_set;
 
   // The first `events_reported` are those of the last step; the rest came since (of bodies that were removed) and will

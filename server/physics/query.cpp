@@ -138,8 +138,9 @@ Energy energy_of(const WorldData<S>& world) {
 template <class S>
 std::vector<ContactPoint> contact_points_of(const WorldData<S>& world) {
   std::vector<ContactPoint> out;
-  for (const Contact<S>& c : world.contacts) {
-    if (!c.alive() || c.sensor()) continue;
+  for (std::uint32_t slot = 0; slot < world.contacts.size(); ++slot) {
+    if (!world.contacts[slot].alive() || world.contacts[slot].sensor()) continue;
+    const Contact<S> c = settled(world, slot);
     const Body<S>& a = world.bodies[c.body_a];
     for (std::uint32_t i = 0; i < c.count; ++i) {
       const ManifoldPoint<S>& p = c.points[i];

@@ -26,20 +26,30 @@ bool anyone_restful(const WorldData<S>& world) {
   return false;
 }
 
+// Calls visit(body a, body b) for each contact with an awake body that has points.
+template <class S, class Visit>
+void for_each_touching(const WorldData<S>& world, Visit&& visit) {
+  for (const auto& color : world.touching.colors)
+    for (const ContactBlock<S>& block : color.blocks)
+      for (std::uint32_t lane = 0; lane < block.count; ++lane) visit(block.a[lane], block.b[lane]);
+  for (const ActiveContact& active : world.active) {
+    const Contact<S>& c = world.contacts[active.contact];
+    if (c.count > 0 && !c.sensor()) visit(c.body_a, c.body_b);
+  }
+}
+
 // Joins what touches. The smaller index becomes the root, so the grouping does not depend on the order of contacts.
 template <class S>
 void join_islands(WorldData<S>& world) {
   std::vector<std::uint32_t>& parent = world.scratch.parent;
   parent.resize(world.awake.size());
   for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = i;
-  for (std::uint32_t slot : world.active) {
-    const Contact<S>& c = world.contacts[slot];
-    if (c.count == 0 || c.sensor()) continue;
-    const Body<S>&a = world.bodies[c.body_a], &b = world.bodies[c.body_b];
-    if (!a.dynamic() || !b.dynamic()) continue;
+  for_each_touching(world, [&](std::uint32_t slot_a, std::uint32_t slot_b) {
+    const Body<S>&a = world.bodies[slot_a], &b = world.bodies[slot_b];
+    if (!a.dynamic() || !b.dynamic() || !a.awake() || !b.awake()) return;
     const std::uint32_t ra = find_root(parent, a.awake_index), rb = find_root(parent, b.awake_index);
     parent[ra < rb ? rb : ra] = ra < rb ? ra : rb;
-  }
+  });
 }
 
 template <class S>
@@ -49,15 +59,15 @@ void mark_restless(WorldData<S>& world) {
   restless.assign(world.awake.size(), 0);
   for (std::uint32_t i = 0; i < world.awake.size(); ++i)
     if (!restful(world.bodies[world.awake[i]])) restless[find_root(parent, i)] = 1;
-  for (std::uint32_t slot : world.active) {
-    const Contact<S>& c = world.contacts[slot];
-    if (c.count == 0 || c.sensor()) continue;
-    const Body<S>&a = world.bodies[c.body_a], &b = world.bodies[c.body_b];
-    if (a.dynamic() && b.body_type() == BodyType::kKinematic && b.awake())
-      restless[find_root(parent, a.awake_index)] = 1;
-    if (b.dynamic() && a.body_type() == BodyType::kKinematic && a.awake())
-      restless[find_root(parent, b.awake_index)] = 1;
-  }
+  for_each_touching(world, [&](std::uint32_t slot_a, std::uint32_t slot_b) {
+    const Body<S>&a = world.bodies[slot_a], &b = world.bodies[slot_b];
+    const auto moved_by = [&](const Body<S>& body, const Body<S>& mover) {
+      if (body.dynamic() && body.awake() && mover.body_type() == BodyType::kKinematic && mover.awake())
+        restless[find_root(parent, body.awake_index)] = 1;
+    };
+    moved_by(a, b);
+    moved_by(b, a);
+  });
 }
 
 }  // namespace

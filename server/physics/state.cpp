@@ -13,7 +13,7 @@ namespace urto {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x4f545255;  // "URTO"
-constexpr std::uint32_t kVersion = 1;         // of the layout: any change of a record or of the order
+constexpr std::uint32_t kVersion = 2;         // of the layout: any change of a record or of the order
 
 struct Header {
   std::uint32_t magic, version, scalar_bytes, unused;
@@ -176,15 +176,26 @@ Status check_header(std::span<const std::byte> block) {
   return {};
 }
 
+// The records with their manifolds, wherever those are kept now.
+template <class S>
+std::vector<Contact<S>> settled_contacts(const WorldData<S>& world) {
+  std::vector<Contact<S>> out(world.contacts.size());
+  for (std::uint32_t slot = 0; slot < out.size(); ++slot) out[slot] = settled(world, slot);
+  return out;
+}
+
 // What restore derives instead of reading.
 template <class S>
-void rebuild(WorldData<S>& world) {
+void rebuild(WorldData<S>& world, const std::vector<std::uint32_t>& lanes) {
   world.pair_set.clear();
   for (const Contact<S>& c : world.contacts)
     if (c.alive()) world.pair_set.insert(c.shape_a, c.shape_b);
   world.needs = Needs{};
   for (std::uint32_t slot = 0; slot < world.bodies.size(); ++slot)
     if (world.bodies[slot].alive()) count_needs(world, slot, +1);
+  world.places.clear();
+  for (std::uint32_t slot = 0; slot < world.bodies.size(); ++slot) refresh_places(world, slot);
+  rebuild_lanes(world, lanes);
   world.broad_phase.reset();
   update_model(world);
 }
@@ -203,10 +214,13 @@ std::vector<std::byte> save_state(const WorldData<S>& world) {
   WorldData<S>::for_each_state_field(world, [&](const char*, const auto& field) {
     if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(field)>>) {
       out.value(field);
+    } else if constexpr (std::is_same_v<std::remove_cvref_t<decltype(field)>, std::vector<Contact<S>>>) {
+      out.array(settled_contacts(world));
     } else {
       out.array(field);
     }
   });
+  out.array(lane_order(world));
   return out.finish(sizeof(S));
 }
 
@@ -223,8 +237,10 @@ Status restore_state(WorldData<S>& world, std::span<const std::byte> block) {
       in.array(field);
     }
   });
+  std::vector<std::uint32_t> lanes;
+  in.array(lanes);
   if (!in.complete()) return corrupt("payload", "the state does not hold what its version should");
-  rebuild(fresh);
+  rebuild(fresh, lanes);
   world = std::move(fresh);
   return {};
 }

@@ -112,7 +112,7 @@ void WorldOf<S>::solve() {
   if (data_.settings.solver == SolverKind::kThesis) {
     solve_thesis(data_);
   } else {
-    solve_soft_step(data_, constraints_);
+    solve_soft_step(data_);
   }
 }
 
@@ -341,8 +341,9 @@ Counters WorldOf<S>::counters() const {
   out.awake_bodies = static_cast<std::uint32_t>(data_.awake.size());
   out.shapes = data_.needs.shapes;
   out.pairs = static_cast<std::uint32_t>(data_.contacts.size() - data_.free_contacts.size());
-  for (const Contact<S>& c : data_.contacts) {
-    if (!c.alive()) continue;
+  for (std::uint32_t slot = 0; slot < data_.contacts.size(); ++slot) {
+    if (!data_.contacts[slot].alive()) continue;
+    const Contact<S> c = settled(data_, slot);
     out.contacts += c.touching();
     if (c.sensor()) continue;
     for (std::uint32_t i = 0; i < c.count; ++i)

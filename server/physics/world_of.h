@@ -1,7 +1,6 @@
 #pragma once
 
 #include "physics/data.h"
-#include "physics/solver/constraint.h"
 #include "physics/world.h"
 
 namespace urto {
@@ -65,7 +64,6 @@ class WorldOf final : public World {
   void run(Phase phase, PhaseFunction&& function);
 
   WorldData<S> data_;
-  ConstraintSet<S> constraints_;  // kept for its capacity
   Clock clock_;
   Profile profile_;
 };

@@ -80,6 +80,12 @@ TYPED_TEST(StateTest, EveryFieldReachesTheHash) {
   using S = TypeParam;
   auto& data = dynamic_cast<WorldOf<S>&>(*this->world_).data();
   const std::uint64_t before = this->world_->state_hash();
+  // As after a restore: the records hold the manifolds, and the lanes do not yet.
+  std::vector<Contact<S>> contacts;
+  for (std::uint32_t slot = 0; slot < data.contacts.size(); ++slot) contacts.push_back(settled(data, slot));
+  data.contacts = contacts;
+  data.touching.current = false;
+  ASSERT_EQ(this->world_->state_hash(), before);
   std::set<std::string> empty;
   WorldData<S>::for_each_state_field(data, [&](const char* name, auto& field) {
     unsigned char* bytes;
@@ -102,7 +108,7 @@ TYPED_TEST(StateTest, EveryFieldReachesTheHash) {
   EXPECT_EQ(this->world_->state_hash(), before);
   // Whatever list is empty in this scene is still counted: growing it moves the hash.
   for (const std::string& name : empty)
-    EXPECT_TRUE(name == "free_contacts" || name == "moved" || name == "free_shapes") << name;
+    EXPECT_TRUE(name == "free_contacts" || name == "moved" || name == "free_shapes" || name == "active") << name;
 }
 
 TYPED_TEST(StateTest, SettingsReachTheHash) {

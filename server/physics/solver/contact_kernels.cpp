@@ -2,229 +2,268 @@
 // a system header is left out of the dependencies that the compiler writes.
 #include "physics/solver/contact_kernels.h"
 
-#include <cstring>
-
 #include "physics/constants.h"
+#include "physics/simd/targets.h"
 
-// A few builds of these kernels are enough: the oldest processors, and each doubling of the width. Vectors of a length
-// unknown to the compiler (SVE) cannot be members of a struct.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "physics/solver/contact_kernels.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
 #include <hwy/highway.h>
 
+#include "physics/simd/rows-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace urto {
 namespace HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-// Multiplications and additions stay apart (no MulAdd), and comparisons choose by IfThenElse instead of Min and Max:
-// both would differ between machines in rounding, or in the sign of zero.
-
+// The velocities and the ways of a few lanes' bodies.
 template <class S>
-using Tag = hn::CappedTag<S, static_cast<std::size_t>(kLanes<S>)>;
-template <class S>
-using Vector = hn::Vec<Tag<S>>;
-
-template <class S>
-HWY_INLINE Vector<S> load(const S* lanes) {
-  return hn::Load(Tag<S>(), lanes);
-}
-template <class S>
-HWY_INLINE void store(Vector<S> v, S* lanes) {
-  hn::Store(v, Tag<S>(), lanes);
-}
-template <class S>
-HWY_INLINE Vector<S> set(S value) {
-  return hn::Set(Tag<S>(), value);
-}
-template <class V>
-HWY_INLINE V larger(V a, V b) {
-  return hn::IfThenElse(hn::Gt(b, a), b, a);
-}
-
-// The motions of the lanes' bodies, field by field.
-template <class S>
-struct Motions {
+struct Bodies {
   Vector<S> vx, vy, w, dx, dy, da, c, s;
-};
+  Vector<S> im, ii;
 
-template <class S>
-HWY_INLINE void load_velocities(const Motion<S>* motions, const std::uint32_t* slots, Motions<S>& m) {
-  HWY_ALIGN S rows[4 * kLanes<S>];
-  const std::size_t n = hn::Lanes(Tag<S>());
-  for (std::size_t i = 0; i < n; ++i) std::memcpy(rows + 4 * i, &motions[slots[i]].vx, 4 * sizeof(S));
-  hn::LoadInterleaved4(Tag<S>(), rows, m.vx, m.vy, m.w, m.dx);
-}
-
-template <class S>
-HWY_INLINE void load_places(const Motion<S>* motions, const std::uint32_t* slots, Motions<S>& m) {
-  HWY_ALIGN S rows[4 * kLanes<S>];
-  const std::size_t n = hn::Lanes(Tag<S>());
-  for (std::size_t i = 0; i < n; ++i) std::memcpy(rows + 4 * i, &motions[slots[i]].dy, 4 * sizeof(S));
-  hn::LoadInterleaved4(Tag<S>(), rows, m.dy, m.da, m.c, m.s);
-}
-
-template <class S>
-HWY_INLINE void store_velocities(const Motions<S>& m, Motion<S>* motions, const std::uint32_t* slots,
-                                 const std::uint8_t* movable) {
-  HWY_ALIGN S rows[4 * kLanes<S>];
-  const std::size_t n = hn::Lanes(Tag<S>());
-  hn::StoreInterleaved4(m.vx, m.vy, m.w, m.dx, Tag<S>(), rows);
-  for (std::size_t i = 0; i < n; ++i)
-    if (movable[i]) std::memcpy(&motions[slots[i]].vx, rows + 4 * i, 4 * sizeof(S));
-}
-
-// What all passes need of a few lanes of a block.
-template <class S>
-struct Lanes {
-  using V = Vector<S>;
-  ContactBlock<S>& block;
-  std::size_t lane;
-  Motions<S> a, b;
-  V nx, ny, im_a, ii_a, im_b, ii_b, share_a, share_b, driftx, drifty;
-  V shiftx, shifty;  // of the arms: the drift, unless it is too long
-
-  HWY_INLINE Lanes(const Motion<S>* motions, ContactBlock<S>& from, std::size_t first) : block(from), lane(first) {
-    load_velocities(motions, block.a + lane, a);
-    load_velocities(motions, block.b + lane, b);
-    load_places(motions, block.a + lane, a);
-    load_places(motions, block.b + lane, b);
-    nx = load(block.nx + lane);
-    ny = load(block.ny + lane);
-    im_a = load(block.inv_mass_a + lane);
-    ii_a = load(block.inv_inertia_a + lane);
-    im_b = load(block.inv_mass_b + lane);
-    ii_b = load(block.inv_inertia_b + lane);
-    share_a = load(block.share_a + lane);
-    share_b = hn::Sub(set(S(1)), share_a);
-    driftx = hn::Sub(b.dx, a.dx);
-    drifty = hn::Sub(b.dy, a.dy);
-    const auto drift2 = hn::Add(hn::Mul(driftx, driftx), hn::Mul(drifty, drifty));
-    const auto follow = hn::Le(drift2, load(block.drift2_max + lane));
-    shiftx = hn::IfThenElseZero(follow, driftx);
-    shifty = hn::IfThenElseZero(follow, drifty);
+  HWY_INLINE Bodies(const Motion<S>* motions, const std::uint32_t* slots, const S* inv_mass, const S* inv_inertia) {
+    const auto m0 = load_rows<S>([&](std::size_t i) { return &motions[slots[i]].vx; });
+    const auto m1 = load_rows<S>([&](std::size_t i) { return &motions[slots[i]].dy; });
+    vx = m0.c0;
+    vy = m0.c1;
+    w = m0.c2;
+    dx = m0.c3;
+    dy = m1.c0;
+    da = m1.c1;
+    c = m1.c2;
+    s = m1.c3;
+    im = load(inv_mass);
+    ii = load(inv_inertia);
   }
-  HWY_INLINE void store_to(Motion<S>* motions) const {
-    store_velocities(a, motions, block.a + lane, block.movable_a + lane);
-    store_velocities(b, motions, block.b + lane, block.movable_b + lane);
+  // Bodies that cannot move are left alone: other lanes may hold them too.
+  HWY_INLINE void store_to(Motion<S>* motions, const std::uint32_t* slots, std::uint32_t movable) const {
+    Motion<S> nowhere;
+    store_rows<S>({vx, vy, w, dx},
+                  [&](std::size_t i) { return (movable >> i) & 1u ? &motions[slots[i]].vx : &nowhere.vx; });
   }
 };
 
-// The lever arms of a point now. Both bodies have moved by different amounts since the point was found; were the arms
+// What all passes need of a few lanes of a block, in the contact's own axes: n and t = (n_y, −n_x).
+//
+// The lever arms are those of now. Both bodies have moved by different amounts since the point was found; were the arms
 // frozen, the two halves of an impulse would act at different world points and angular momentum would be made from
 // nothing. So the drift of the centres is shared out between the arms, more of it to the heavier body's, unless the
 // bodies race past each other (kDriftFraction).
 template <class S>
+struct Lanes {
+  using V = Vector<S>;
+  ContactBlock<S>& block;
+  const std::size_t lane;
+  Bodies<S> a, b;
+  V nx, ny;
+  V drift_along;  // m, of b against a since the start of the step
+  V between_along, between_lever;
+  V shift_a_along, shift_a_lever, shift_b_along, shift_b_lever;  // m, of the arms
+  V speed_along, speed_across;                                   // m/s, of b's centre against a's: along n, along t
+  V push_along, push_across;                                     // N·s, applied so far in this pass
+
+  HWY_INLINE Lanes(const Motion<S>* motions, ContactBlock<S>& from, std::size_t first)
+      : block(from),
+        lane(first),
+        a(motions, from.a + first, from.inv_mass_a + first, from.inv_inertia_a + first),
+        b(motions, from.b + first, from.inv_mass_b + first, from.inv_inertia_b + first),
+        nx(load(from.nx + first)),
+        ny(load(from.ny + first)),
+        between_along(load(from.between_along + first)),
+        between_lever(load(from.between_lever + first)),
+        push_along(hn::Zero(Tag<S>())),
+        push_across(hn::Zero(Tag<S>())) {
+    const auto driftx = hn::Sub(b.dx, a.dx), drifty = hn::Sub(b.dy, a.dy);
+    const auto drift2 = hn::Add(hn::Mul(driftx, driftx), hn::Mul(drifty, drifty));
+    const auto follow = hn::Le(drift2, load(block.drift2_max + lane));
+    const auto share_a = load(block.share_a + lane);
+    drift_along = hn::Add(hn::Mul(driftx, nx), hn::Mul(drifty, ny));
+    const auto along = hn::IfThenElseZero(follow, drift_along);
+    const auto lever = hn::IfThenElseZero(follow, hn::Sub(hn::Mul(driftx, ny), hn::Mul(drifty, nx)));
+    shift_a_along = hn::Mul(share_a, along);
+    shift_a_lever = hn::Mul(share_a, lever);
+    shift_b_along = hn::Sub(shift_a_along, hn::Add(between_along, along));
+    shift_b_lever = hn::Sub(shift_a_lever, hn::Add(between_lever, lever));
+    const auto vx = hn::Sub(b.vx, a.vx), vy = hn::Sub(b.vy, a.vy);
+    speed_along = hn::Add(hn::Mul(vx, nx), hn::Mul(vy, ny));
+    speed_across = hn::Sub(hn::Mul(vx, ny), hn::Mul(vy, nx));
+  }
+
+  HWY_INLINE void store_to(Motion<S>* motions) {
+    const auto px = hn::Add(hn::Mul(push_along, nx), hn::Mul(push_across, ny));
+    const auto py = hn::Sub(hn::Mul(push_along, ny), hn::Mul(push_across, nx));
+    a.vx = hn::Sub(a.vx, hn::Mul(a.im, px));
+    a.vy = hn::Sub(a.vy, hn::Mul(a.im, py));
+    b.vx = hn::Add(b.vx, hn::Mul(b.im, px));
+    b.vy = hn::Add(b.vy, hn::Mul(b.im, py));
+    a.store_to(motions, block.a + lane, block.movable_a >> lane);
+    b.store_to(motions, block.b + lane, block.movable_b >> lane);
+  }
+};
+
+// The arms of a point's impulses: r×n of the normal one, r×t = −r·n of the tangential one.
+template <class S>
 struct Arms {
-  Vector<S> ax, ay, bx, by;
+  Vector<S> along, lever;  // of the anchor as it was found
+  Vector<S> normal_a, normal_b, tangent_a, tangent_b;
+
   HWY_INLINE Arms(const Lanes<S>& k, const PointLanes<S>& p)
-      : ax(hn::Add(load(p.ax + k.lane), hn::Mul(k.share_a, k.shiftx))),
-        ay(hn::Add(load(p.ay + k.lane), hn::Mul(k.share_a, k.shifty))),
-        bx(hn::Sub(load(p.bx + k.lane), hn::Mul(k.share_b, k.shiftx))),
-        by(hn::Sub(load(p.by + k.lane), hn::Mul(k.share_b, k.shifty))) {}
+      : along(load(p.along + k.lane)),
+        lever(load(p.lever + k.lane)),
+        normal_a(hn::Add(lever, k.shift_a_lever)),
+        normal_b(hn::Add(lever, k.shift_b_lever)),
+        tangent_a(hn::Neg(hn::Add(along, k.shift_a_along))),
+        tangent_b(hn::Neg(hn::Add(along, k.shift_b_along))) {}
+};
+
+// m/s, of b's point against a's.
+template <class S>
+HWY_INLINE Vector<S> normal_speed(const Lanes<S>& k, const Arms<S>& r) {
+  return hn::Add(k.speed_along, hn::Sub(hn::Mul(k.b.w, r.normal_b), hn::Mul(k.a.w, r.normal_a)));
+}
+template <class S>
+HWY_INLINE Vector<S> tangent_speed(const Lanes<S>& k, const Arms<S>& r) {
+  return hn::Add(k.speed_across, hn::Sub(hn::Mul(k.b.w, r.tangent_b), hn::Mul(k.a.w, r.tangent_a)));
+}
+
+template <class S>
+HWY_INLINE void turn(Lanes<S>& k, Vector<S> impulse, Vector<S> arm_a, Vector<S> arm_b) {
+  k.a.w = hn::Sub(k.a.w, hn::Mul(k.a.ii, hn::Mul(arm_a, impulse)));
+  k.b.w = hn::Add(k.b.w, hn::Mul(k.b.ii, hn::Mul(arm_b, impulse)));
+}
+
+template <class S>
+HWY_INLINE void push_along_normal(Lanes<S>& k, const Arms<S>& r, Vector<S> impulse) {
+  k.push_along = hn::Add(k.push_along, impulse);
+  turn(k, impulse, r.normal_a, r.normal_b);
+}
+template <class S>
+HWY_INLINE void push_along_tangent(Lanes<S>& k, const Arms<S>& r, Vector<S> impulse) {
+  k.push_across = hn::Add(k.push_across, impulse);
+  turn(k, impulse, r.tangent_a, r.tangent_b);
+}
+
+// The linear part of what was pushed in the meantime.
+template <class S>
+HWY_INLINE void take_up_speed(const Lanes<S>& k, Vector<S>& speed, Vector<S> impulse) {
+  speed = hn::Add(speed, hn::Mul(hn::Add(k.a.im, k.b.im), impulse));
+}
+
+// Taking over manifolds -------------------------------------------------------------------------------------------
+
+// An impulse of the points before, for the point with this id: what the feature had, 0 if it is new.
+template <class S>
+struct Match {
+  Mask<S> first, second;
+  HWY_INLINE Vector<S> carry(Vector<S> of_first, Vector<S> of_second) const {
+    return hn::IfThenElse(first, of_first, hn::IfThenElseZero(second, of_second));
+  }
 };
 
 template <class S>
-HWY_INLINE void apply(Lanes<S>& k, const Arms<S>& r, Vector<S> px, Vector<S> py) {
-  k.a.vx = hn::Sub(k.a.vx, hn::Mul(k.im_a, px));
-  k.a.vy = hn::Sub(k.a.vy, hn::Mul(k.im_a, py));
-  k.a.w = hn::Sub(k.a.w, hn::Mul(k.ii_a, hn::Sub(hn::Mul(r.ax, py), hn::Mul(r.ay, px))));
-  k.b.vx = hn::Add(k.b.vx, hn::Mul(k.im_b, px));
-  k.b.vy = hn::Add(k.b.vy, hn::Mul(k.im_b, py));
-  k.b.w = hn::Add(k.b.w, hn::Mul(k.ii_b, hn::Sub(hn::Mul(r.bx, py), hn::Mul(r.by, px))));
-}
-
-// Of b's point against a's along a direction.
-template <class S>
-HWY_INLINE Vector<S> relative_velocity(const Lanes<S>& k, const Arms<S>& r, Vector<S> ux, Vector<S> uy) {
-  const auto dvx = hn::Sub(hn::Sub(k.b.vx, hn::Mul(k.b.w, r.by)), hn::Sub(k.a.vx, hn::Mul(k.a.w, r.ay)));
-  const auto dvy = hn::Sub(hn::Add(k.b.vy, hn::Mul(k.b.w, r.bx)), hn::Add(k.a.vy, hn::Mul(k.a.w, r.ax)));
-  return hn::Add(hn::Mul(dvx, ux), hn::Mul(dvy, uy));
-}
-
-// r × u.
-template <class V>
-HWY_INLINE V lever(V rx, V ry, V ux, V uy) {
-  return hn::Sub(hn::Mul(rx, uy), hn::Mul(ry, ux));
+HWY_INLINE void carry_over(PointLanes<S>& p, PointLanes<S>& q, const Match<S>& to_p, const Match<S>& to_q,
+                           S (PointLanes<S>::*field)[kLanes<S>], std::size_t lane) {
+  const auto first = load(&(p.*field)[lane]), second = load(&(q.*field)[lane]);
+  store(to_p.carry(first, second), &(p.*field)[lane]);
+  store(to_q.carry(first, second), &(q.*field)[lane]);
 }
 
 template <class S>
-HWY_INLINE void prepare_point(Lanes<S>& k, PointLanes<S>& p) {
+HWY_INLINE void take_point(Lanes<S>& k, PointLanes<S>& p, S* approach) {
   const std::size_t i = k.lane;
   const auto one = set(S(1)), zero = hn::Zero(Tag<S>());
-  const auto ax = load(p.ax + i), ay = load(p.ay + i), bx = load(p.bx + i), by = load(p.by + i);
-  const auto tx = k.ny, ty = hn::Sub(zero, k.nx);
-  const auto na = lever(ax, ay, k.nx, k.ny), nb = lever(bx, by, k.nx, k.ny);
-  const auto ta = lever(ax, ay, tx, ty), tb = lever(bx, by, tx, ty);
-  const auto masses = hn::Add(k.im_a, k.im_b);
-  const auto kn = hn::Add(hn::Add(masses, hn::Mul(hn::Mul(k.ii_a, na), na)), hn::Mul(hn::Mul(k.ii_b, nb), nb));
-  const auto kt = hn::Add(hn::Add(masses, hn::Mul(hn::Mul(k.ii_a, ta), ta)), hn::Mul(hn::Mul(k.ii_b, tb), tb));
+  const Arms<S> r(k, p);
+  const auto masses = hn::Add(k.a.im, k.b.im);
+  const auto square = [](auto inertia, auto arm) HWY_ATTR { return hn::Mul(hn::Mul(inertia, arm), arm); };
+  const auto kn = hn::Add(hn::Add(masses, square(k.a.ii, r.normal_a)), square(k.b.ii, r.normal_b));
+  const auto kt = hn::Add(hn::Add(masses, square(k.a.ii, r.tangent_a)), square(k.b.ii, r.tangent_b));
   store(kn, p.inverse_mass + i);
   store(hn::Div(one, kt), p.tangent_mass + i);
-  const Arms<S> r(k, p);
-  store(relative_velocity(k, r, k.nx, k.ny), p.approach + i);
-}
-
-// m², the shorter of a point's two arms.
-template <class S>
-HWY_INLINE Vector<S> shortest_arm2(const Lanes<S>& k, const PointLanes<S>& p) {
-  const auto ax = load(p.ax + k.lane), ay = load(p.ay + k.lane), bx = load(p.bx + k.lane), by = load(p.by + k.lane);
-  const auto a2 = hn::Add(hn::Mul(ax, ax), hn::Mul(ay, ay)), b2 = hn::Add(hn::Mul(bx, bx), hn::Mul(by, by));
-  return hn::IfThenElse(hn::Lt(b2, a2), b2, a2);
+  store(zero, p.total_normal_impulse + i);
+  store(zero, p.total_tangent_impulse + i);
+  store(normal_speed(k, r), approach + i);
 }
 
 template <class S>
-HWY_INLINE void prepare_lanes(Lanes<S>& k) {
-  const std::size_t i = k.lane;
-  PointLanes<S>&p = k.block.points[0], &q = k.block.points[1];
-  k.share_a = hn::Div(k.im_b, hn::Add(k.im_a, k.im_b));
-  store(k.share_a, k.block.share_a + i);
-  prepare_point(k, p);
-  prepare_point(k, q);
-  const auto arm2 = shortest_arm2(k, p);
-  const auto second = hn::IfThenElse(hn::Gt(load(k.block.two + i), hn::Zero(Tag<S>())), shortest_arm2(k, q), arm2);
-  store(hn::Mul(set(S(kDriftFraction * kDriftFraction)), hn::IfThenElse(hn::Lt(second, arm2), second, arm2)),
-        k.block.drift2_max + i);
-  const auto pa = lever(load(p.ax + i), load(p.ay + i), k.nx, k.ny),
-             pb = lever(load(p.bx + i), load(p.by + i), k.nx, k.ny);
-  const auto qa = lever(load(q.ax + i), load(q.ay + i), k.nx, k.ny),
-             qb = lever(load(q.bx + i), load(q.by + i), k.nx, k.ny);
-  const auto turning = hn::Add(hn::Mul(hn::Mul(k.ii_a, pa), qa), hn::Mul(hn::Mul(k.ii_b, pb), qb));
-  store(hn::Add(hn::Add(k.im_a, k.im_b), turning), k.block.coupling + i);
+HWY_INLINE void take_lanes(const Motion<S>* motions, const ManifoldLanes<S>& m, ContactBlock<S>& block,
+                           ContactBlockRest<S>& rest, std::size_t i) {
+  PointLanes<S>&p = block.points[0], &q = block.points[1];
+  const auto two = hn::Gt(load(m.count + i), set(S(1)));
+  const auto id_p = load(m.id[0] + i), id_q = hn::IfThenElse(two, load(m.id[1] + i), set(S(kNoPoint)));
+  const auto old_p = load(rest.id[0] + i), old_q = load(rest.id[1] + i);
+  const Match<S> to_p{hn::Eq(id_p, old_p), hn::Eq(id_p, old_q)};
+  const Match<S> to_q{hn::And(two, hn::Eq(id_q, old_p)), hn::And(two, hn::Eq(id_q, old_q))};
+  carry_over(p, q, to_p, to_q, &PointLanes<S>::normal_impulse, i);
+  carry_over(p, q, to_p, to_q, &PointLanes<S>::tangent_impulse, i);
+  carry_over(p, q, to_p, to_q, &PointLanes<S>::preload, i);
+  store(id_p, rest.id[0] + i);
+  store(id_q, rest.id[1] + i);
+
+  const auto nx = load(m.nx + i), ny = load(m.ny + i);
+  const auto along = [&](auto x, auto y) HWY_ATTR { return hn::Add(hn::Mul(x, nx), hn::Mul(y, ny)); };
+  const auto lever = [&](auto x, auto y) HWY_ATTR { return hn::Sub(hn::Mul(x, ny), hn::Mul(y, nx)); };
+  const auto px = load(m.x[0] + i), py = load(m.y[0] + i);
+  const auto qx = hn::IfThenElse(two, load(m.x[1] + i), px), qy = hn::IfThenElse(two, load(m.y[1] + i), py);
+  const auto dx = load(m.between_x + i), dy = load(m.between_y + i);
+  store(nx, block.nx + i);
+  store(ny, block.ny + i);
+  store(along(dx, dy), block.between_along + i);
+  store(lever(dx, dy), block.between_lever + i);
+  store(along(px, py), p.along + i);
+  store(lever(px, py), p.lever + i);
+  store(along(qx, qy), q.along + i);
+  store(lever(qx, qy), q.lever + i);
+  store(load(m.separation[0] + i), p.separation + i);
+  store(hn::IfThenElse(two, load(m.separation[1] + i), set(S(kFarSeparation))), q.separation + i);
+
+  // Arms follow the drift up to a share of the shortest one.
+  const auto square = [](auto x, auto y) HWY_ATTR { return hn::Add(hn::Mul(x, x), hn::Mul(y, y)); };
+  const auto shortest = smaller(smaller(square(px, py), square(hn::Sub(px, dx), hn::Sub(py, dy))),
+                                smaller(square(qx, qy), square(hn::Sub(qx, dx), hn::Sub(qy, dy))));
+  store(hn::Mul(set(S(kDriftFraction * kDriftFraction)), shortest), block.drift2_max + i);
+
+  Lanes<S> k(motions, block, i);
+  take_point(k, p, rest.approach[0]);
+  take_point(k, q, rest.approach[1]);
+  const Arms<S> rp(k, p), rq(k, q);
+  const auto turning =
+      hn::Add(hn::Mul(hn::Mul(k.a.ii, rp.normal_a), rq.normal_a), hn::Mul(hn::Mul(k.b.ii, rp.normal_b), rq.normal_b));
+  store(hn::IfThenElseZero(two, hn::Add(hn::Add(k.a.im, k.b.im), turning)), block.coupling + i);
 }
+
+template <class S>
+void take(const Motion<S>* motions, const ManifoldLanes<S>& manifolds, ContactBlock<S>& block,
+          ContactBlockRest<S>& rest) {
+  for (std::size_t lane = 0; lane < block.count; lane += hn::Lanes(Tag<S>()))
+    take_lanes(motions, manifolds, block, rest, lane);
+}
+
+// The passes of a sub-step ----------------------------------------------------------------------------------------
 
 template <class S>
 HWY_INLINE void warm_start_lanes(Lanes<S>& k) {
   for (PointLanes<S>& p : k.block.points) {
     const Arms<S> r(k, p);
-    const auto normal = load(p.normal_impulse + k.lane), tangent = load(p.tangent_impulse + k.lane);
-    apply(k, r, hn::Add(hn::Mul(normal, k.nx), hn::Mul(tangent, k.ny)),
-          hn::Sub(hn::Mul(normal, k.ny), hn::Mul(tangent, k.nx)));
+    push_along_normal(k, r, load(p.normal_impulse + k.lane));
+    push_along_tangent(k, r, load(p.tangent_impulse + k.lane));
   }
 }
 
 template <class S>
-HWY_INLINE void solve_friction(Lanes<S>& k) {
-  const auto zero = hn::Zero(Tag<S>());
-  const auto friction = load(k.block.friction + k.lane);
-  const auto tx = k.ny, ty = hn::Sub(zero, k.nx);
-  for (PointLanes<S>& p : k.block.points) {
-    const Arms<S> r(k, p);
-    const auto vt = relative_velocity(k, r, tx, ty);
-    const auto bound = hn::Mul(friction, load(p.normal_impulse + k.lane)), low = hn::Sub(zero, bound);
-    const auto before = load(p.tangent_impulse + k.lane);
-    auto next = hn::Sub(before, hn::Mul(load(p.tangent_mass + k.lane), vt));
-    next = hn::IfThenElse(hn::Gt(next, bound), bound, next);
-    next = hn::IfThenElse(hn::Lt(next, low), low, next);
-    store(next, p.tangent_impulse + k.lane);
-    const auto impulse = hn::Sub(next, before);
-    apply(k, r, hn::Mul(impulse, tx), hn::Mul(impulse, ty));
-  }
+HWY_INLINE void solve_friction(Lanes<S>& k, const Arms<S>& r, PointLanes<S>& p, Vector<S> friction,
+                               Vector<S> normal_impulse) {
+  const auto bound = hn::Mul(friction, normal_impulse), low = hn::Neg(bound);
+  const auto before = load(p.tangent_impulse + k.lane);
+  auto next = hn::Sub(before, hn::Mul(load(p.tangent_mass + k.lane), tangent_speed(k, r)));
+  next = smaller(next, bound);
+  next = larger(next, low);
+  store(next, p.tangent_impulse + k.lane);
+  const auto impulse = hn::Sub(next, before);
+  push_along_tangent(k, r, impulse);
+  take_up_speed(k, k.speed_across, impulse);
 }
 
 // What a point asks of its relative normal velocity: v + bias = −γ (λ − P), where γ is its compliance, P its preload.
@@ -234,21 +273,19 @@ struct Demand {
 };
 
 template <class S, bool kUseBias>
-HWY_INLINE Demand<S> demand_of(const Lanes<S>& k, const PointLanes<S>& p, const PassSettings<S>& settings) {
-  const auto zero = hn::Zero(Tag<S>());
-  const auto ax = load(p.ax + k.lane), ay = load(p.ay + k.lane), bx = load(p.bx + k.lane), by = load(p.by + k.lane);
+HWY_INLINE Demand<S> demand_of(const Lanes<S>& k, const PointLanes<S>& p, const Arms<S>& r, Vector<S> inverse_mass,
+                               const PassSettings<S>& settings) {
+  const auto zero = hn::Zero(Tag<S>()), one = set(S(1));
   // Where the anchors are now: material points, turned with their bodies.
-  const auto rx = hn::Sub(hn::Sub(hn::Sub(hn::Mul(k.b.c, bx), hn::Mul(k.b.s, by)), bx),
-                          hn::Sub(hn::Sub(hn::Mul(k.a.c, ax), hn::Mul(k.a.s, ay)), ax));
-  const auto ry = hn::Sub(hn::Sub(hn::Add(hn::Mul(k.b.s, bx), hn::Mul(k.b.c, by)), by),
-                          hn::Sub(hn::Add(hn::Mul(k.a.s, ax), hn::Mul(k.a.c, ay)), ay));
-  const auto along = hn::Add(hn::Mul(hn::Add(k.driftx, rx), k.nx), hn::Mul(hn::Add(k.drifty, ry), k.ny));
-  const auto s = hn::Add(load(p.separation + k.lane), along);
+  const auto b_along = hn::Sub(r.along, k.between_along), b_lever = hn::Sub(r.lever, k.between_lever);
+  const auto turned_b = hn::Add(hn::Mul(hn::Sub(k.b.c, one), b_along), hn::Mul(k.b.s, b_lever));
+  const auto turned_a = hn::Add(hn::Mul(hn::Sub(k.a.c, one), r.along), hn::Mul(k.a.s, r.lever));
+  const auto s = hn::Add(load(p.separation + k.lane), hn::Add(k.drift_along, hn::Sub(turned_b, turned_a)));
   const auto apart = hn::Gt(s, zero);
   const auto closing = hn::Mul(s, set(settings.inv_h));  // may close the gap in this sub-step, not more
-  if (!kUseBias) return {hn::IfThenElse(apart, closing, zero), zero};
+  if (!kUseBias) return {hn::IfThenElseZero(apart, closing), zero};
   const auto pushing = larger(hn::Mul(set(settings.bias_rate), s), set(S(-kPushSpeedMax)));
-  const auto soft = hn::Mul(set(settings.compliance), load(p.inverse_mass + k.lane));
+  const auto soft = hn::Mul(set(settings.compliance), inverse_mass);
   return {hn::IfThenElse(apart, closing, pushing), hn::IfThenElse(apart, zero, soft)};
 }
 
@@ -259,131 +296,155 @@ struct TwoImpulses {
 
 // Both points of a manifold at once, so that neither side is favoured: the linear complementarity problem
 //   w = K λ − q ≥ 0,  λ ≥ 0,  w·λ = 0
-// by trying which points push (Catto, "Block solver", Box2D 2). Lanes with one point solve that alone.
+// by trying which points push (Catto, "Block solver", Box2D 2).
 template <class S, class V = Vector<S>>
-HWY_INLINE TwoImpulses<V> solve_two(V two, V k11, V k12, V k22, V q1, V q2) {
+HWY_INLINE TwoImpulses<V> solve_two(V k11, V k12, V k22, V q1, V q2) {
   const auto zero = hn::Zero(Tag<S>());
   const auto k11_k22 = hn::Mul(k11, k22);
   const auto determinant = hn::Sub(k11_k22, hn::Mul(k12, k12));
   const auto d1 = hn::Sub(hn::Mul(k22, q1), hn::Mul(k12, q2)), d2 = hn::Sub(hn::Mul(k11, q2), hn::Mul(k12, q1));
-  const auto has_two = hn::Gt(two, zero);
-  const auto regular = hn::And(has_two, hn::Gt(determinant, hn::Mul(set(S(kDeterminantMin)), k11_k22)));
+  const auto regular = hn::Gt(determinant, hn::Mul(set(S(kDeterminantMin)), k11_k22));
   const auto both = hn::And(regular, hn::And(hn::Ge(d1, zero), hn::Ge(d2, zero)));
-  const auto first = hn::And(hn::Ge(q1, zero), hn::Or(hn::Not(has_two), hn::Ge(hn::Mul(k12, q1), hn::Mul(k11, q2))));
-  const auto second = hn::And(has_two, hn::And(hn::Ge(q2, zero), hn::Ge(hn::Mul(k12, q2), hn::Mul(k22, q1))));
+  const auto first = hn::And(hn::Ge(q1, zero), hn::Ge(hn::Mul(k12, q1), hn::Mul(k11, q2)));
+  const auto second = hn::And(hn::Ge(q2, zero), hn::Ge(hn::Mul(k12, q2), hn::Mul(k22, q1)));
   const auto l1 = hn::Div(hn::IfThenElse(both, d1, q1), hn::IfThenElse(both, determinant, k11));
   const auto l2 = hn::Div(hn::IfThenElse(both, d2, q2), hn::IfThenElse(both, determinant, k22));
   const auto only_second = hn::AndNot(hn::Or(both, first), second);
   return {hn::IfThenElseZero(hn::Or(both, first), l1), hn::IfThenElseZero(hn::Or(both, only_second), l2)};
 }
 
-// Changes the normal impulse of a point to `next`.
+// Changes the normal impulses of both points.
 template <class S>
-HWY_INLINE void push(Lanes<S>& k, PointLanes<S>& p, const Arms<S>& r, Vector<S> next) {
-  const auto impulse = hn::Sub(next, load(p.normal_impulse + k.lane));
-  store(next, p.normal_impulse + k.lane);
-  apply(k, r, hn::Mul(impulse, k.nx), hn::Mul(impulse, k.ny));
+HWY_INLINE void push_both(Lanes<S>& k, const Arms<S>& r1, const Arms<S>& r2, const TwoImpulses<Vector<S>>& before,
+                          const TwoImpulses<Vector<S>>& next) {
+  store(next.first, k.block.points[0].normal_impulse + k.lane);
+  store(next.second, k.block.points[1].normal_impulse + k.lane);
+  const auto d1 = hn::Sub(next.first, before.first), d2 = hn::Sub(next.second, before.second);
+  push_along_normal(k, r1, d1);
+  push_along_normal(k, r2, d2);
 }
+
+template <class S>
+struct NormalPoints {
+  const PointLanes<S>&p1, &p2;
+  TwoImpulses<Vector<S>> before;
+  Vector<S> m1, m2, coupling;
+
+  HWY_INLINE explicit NormalPoints(const Lanes<S>& k)
+      : p1(k.block.points[0]),
+        p2(k.block.points[1]),
+        before{load(p1.normal_impulse + k.lane), load(p2.normal_impulse + k.lane)},
+        m1(load(p1.inverse_mass + k.lane)),
+        m2(load(p2.inverse_mass + k.lane)),
+        coupling(load(k.block.coupling + k.lane)) {}
+  // K λ₀ − v.
+  HWY_INLINE Vector<S> wanted_1(Vector<S> v) const {
+    return hn::Sub(hn::Add(hn::Mul(m1, before.first), hn::Mul(coupling, before.second)), v);
+  }
+  HWY_INLINE Vector<S> wanted_2(Vector<S> v) const {
+    return hn::Sub(hn::Add(hn::Mul(coupling, before.first), hn::Mul(m2, before.second)), v);
+  }
+};
 
 // λ of both points: (K + γ) λ = K λ₀ − v − bias + γ P where they push.
 template <class S, bool kUseBias>
-HWY_INLINE void solve_normals(Lanes<S>& k, const PassSettings<S>& settings) {
-  PointLanes<S>&p1 = k.block.points[0], &p2 = k.block.points[1];
-  const Demand<S> d1 = demand_of<S, kUseBias>(k, p1, settings), d2 = demand_of<S, kUseBias>(k, p2, settings);
-  const Arms<S> r1(k, p1), r2(k, p2);
-  const auto v1 = relative_velocity(k, r1, k.nx, k.ny), v2 = relative_velocity(k, r2, k.nx, k.ny);
-  const auto l1 = load(p1.normal_impulse + k.lane), l2 = load(p2.normal_impulse + k.lane);
-  const auto m1 = load(p1.inverse_mass + k.lane), m2 = load(p2.inverse_mass + k.lane);
-  const auto two = load(k.block.two + k.lane), coupling = load(k.block.coupling + k.lane);
-  auto q1 = hn::Sub(hn::Sub(hn::Add(hn::Mul(m1, l1), hn::Mul(coupling, l2)), v1), d1.bias);
-  auto q2 = hn::Sub(hn::Sub(hn::Add(hn::Mul(coupling, l1), hn::Mul(m2, l2)), v2), d2.bias);
-  auto k11 = m1, k22 = m2;
+HWY_INLINE TwoImpulses<Vector<S>> solve_normals(Lanes<S>& k, const Arms<S>& r1, const Arms<S>& r2,
+                                                const PassSettings<S>& settings) {
+  const NormalPoints<S> n(k);
+  const Demand<S> d1 = demand_of<S, kUseBias>(k, n.p1, r1, n.m1, settings);
+  const Demand<S> d2 = demand_of<S, kUseBias>(k, n.p2, r2, n.m2, settings);
+  auto q1 = hn::Sub(n.wanted_1(normal_speed(k, r1)), d1.bias), q2 = hn::Sub(n.wanted_2(normal_speed(k, r2)), d2.bias);
+  auto k11 = n.m1, k22 = n.m2;
   if (kUseBias) {
-    q1 = hn::Add(q1, hn::Mul(d1.compliance, load(p1.preload + k.lane)));
-    q2 = hn::Add(q2, hn::Mul(d2.compliance, load(p2.preload + k.lane)));
+    q1 = hn::Add(q1, hn::Mul(d1.compliance, load(n.p1.preload + k.lane)));
+    q2 = hn::Add(q2, hn::Mul(d2.compliance, load(n.p2.preload + k.lane)));
     k11 = hn::Add(k11, d1.compliance);
     k22 = hn::Add(k22, d2.compliance);
   }
-  const auto next = solve_two<S>(two, k11, coupling, k22, q1, q2);
-  push(k, p1, r1, next.first);
-  push(k, p2, r2, next.second);
+  const auto next = solve_two<S>(k11, n.coupling, k22, q1, q2);
+  push_both(k, r1, r2, n.before, next);
+  return next;
 }
 
 template <class S>
-HWY_INLINE void add_to_totals(Lanes<S>& k, const PassSettings<S>& settings) {
-  for (PointLanes<S>& p : k.block.points) {
-    const auto normal = load(p.normal_impulse + k.lane), preload = load(p.preload + k.lane);
-    store(hn::Add(preload, hn::Mul(set(settings.preload_rate), hn::Sub(normal, preload))), p.preload + k.lane);
-    store(hn::Add(load(p.total_normal_impulse + k.lane), normal), p.total_normal_impulse + k.lane);
-    store(hn::Add(load(p.total_tangent_impulse + k.lane), load(p.tangent_impulse + k.lane)),
-          p.total_tangent_impulse + k.lane);
-  }
+HWY_INLINE void add_to_totals(const Lanes<S>& k, PointLanes<S>& p, Vector<S> normal, const PassSettings<S>& settings) {
+  const auto preload = load(p.preload + k.lane);
+  store(hn::Add(preload, hn::Mul(set(settings.preload_rate), hn::Sub(normal, preload))), p.preload + k.lane);
+  store(hn::Add(load(p.total_normal_impulse + k.lane), normal), p.total_normal_impulse + k.lane);
+  store(hn::Add(load(p.total_tangent_impulse + k.lane), load(p.tangent_impulse + k.lane)),
+        p.total_tangent_impulse + k.lane);
 }
 
 // The speed at which restitution lets a point leave: e times that at which it closed in, if that was fast enough and
 // the point pushed; 0 if not.
 template <class S>
-HWY_INLINE Vector<S> leaving_speed(const Lanes<S>& k, const PointLanes<S>& p, const PassSettings<S>& settings) {
+HWY_INLINE Vector<S> leaving_speed(const Lanes<S>& k, const PointLanes<S>& p, const S* approach_of,
+                                   Vector<S> restitution, const PassSettings<S>& settings) {
   const auto zero = hn::Zero(Tag<S>());
-  const auto approach = load(p.approach + k.lane);
+  const auto approach = load(approach_of + k.lane);
   const auto bounces =
       hn::And(hn::Le(approach, set(-settings.threshold)), hn::Gt(load(p.total_normal_impulse + k.lane), zero));
-  return hn::IfThenElseZero(bounces, hn::Mul(load(k.block.restitution + k.lane), hn::Sub(zero, approach)));
+  return hn::IfThenElseZero(bounces, hn::Neg(hn::Mul(restitution, approach)));
 }
 
 // Newton's restitution for a contact that was hit in this step: each point that closed in faster than the threshold
 // and pushed leaves at e times that speed; the others must only not close in.
 template <class S>
-HWY_INLINE void restitute_lanes(Lanes<S>& k, const PassSettings<S>& settings) {
+HWY_INLINE void restitute_lanes(Lanes<S>& k, const ContactBlockRest<S>& rest, const PassSettings<S>& settings) {
   const auto zero = hn::Zero(Tag<S>());
   PointLanes<S>&p1 = k.block.points[0], &p2 = k.block.points[1];
-  const auto two = load(k.block.two + k.lane), coupling = load(k.block.coupling + k.lane);
-  const auto u1 = leaving_speed(k, p1, settings), u2 = leaving_speed(k, p2, settings);
+  const auto restitution = load(rest.restitution + k.lane);
+  const auto u1 = leaving_speed(k, p1, rest.approach[0], restitution, settings);
+  const auto u2 = leaving_speed(k, p2, rest.approach[1], restitution, settings);
   const auto bounces = hn::Or(hn::Gt(u1, zero), hn::Gt(u2, zero));
+  if (hn::AllFalse(Tag<S>(), bounces)) return;
   const Arms<S> r1(k, p1), r2(k, p2);
-  const auto v1 = relative_velocity(k, r1, k.nx, k.ny), v2 = relative_velocity(k, r2, k.nx, k.ny);
-  const auto l1 = load(p1.normal_impulse + k.lane), l2 = load(p2.normal_impulse + k.lane);
-  const auto m1 = load(p1.inverse_mass + k.lane), m2 = load(p2.inverse_mass + k.lane);
-  const auto q1 = hn::Add(hn::Sub(hn::Add(hn::Mul(m1, l1), hn::Mul(coupling, l2)), v1), u1);
-  const auto q2 = hn::Add(hn::Sub(hn::Add(hn::Mul(coupling, l1), hn::Mul(m2, l2)), v2), u2);
-  auto next = solve_two<S>(two, m1, coupling, m2, q1, q2);
-  next.first = hn::IfThenElse(bounces, next.first, l1);
-  next.second = hn::IfThenElse(bounces, next.second, l2);
-  store(hn::Add(load(p1.total_normal_impulse + k.lane), hn::Sub(next.first, l1)), p1.total_normal_impulse + k.lane);
-  store(hn::Add(load(p2.total_normal_impulse + k.lane), hn::Sub(next.second, l2)), p2.total_normal_impulse + k.lane);
-  push(k, p1, r1, next.first);
-  push(k, p2, r2, next.second);
+  const NormalPoints<S> n(k);
+  // A point that is not there keeps far below what would make it push.
+  const auto there = hn::Lt(load(p2.separation + k.lane), set(S(kFarSeparation)));
+  const auto q1 = hn::Add(n.wanted_1(normal_speed(k, r1)), u1);
+  const auto q2 = hn::IfThenElse(there, hn::Add(n.wanted_2(normal_speed(k, r2)), u2), set(S(-kFarSeparation)));
+  auto next = solve_two<S>(n.m1, n.coupling, n.m2, q1, q2);
+  next.first = hn::IfThenElse(bounces, next.first, n.before.first);
+  next.second = hn::IfThenElse(bounces, next.second, n.before.second);
+  const auto add = [&](PointLanes<S>& p, auto after, auto before) HWY_ATTR {
+    store(hn::Add(load(p.total_normal_impulse + k.lane), hn::Sub(after, before)), p.total_normal_impulse + k.lane);
+  };
+  add(p1, next.first, n.before.first);
+  add(p2, next.second, n.before.second);
+  push_both(k, r1, r2, n.before, next);
 }
 
-// Calls work(lanes) for each vector of each block, in order; writes velocities back if kMoves.
-template <class S, bool kMoves, class Work>
+// Calls work(lanes) for each vector of each block, in order, and writes velocities back.
+template <class S, class Work>
 HWY_INLINE void for_each_vector(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const Work& work) {
   const std::size_t width = hn::Lanes(Tag<S>());
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t lane = 0; lane < blocks[i].count; lane += width) {
       Lanes<S> k(motions, blocks[i], lane);
-      work(k);
-      if (kMoves) k.store_to(motions);
+      work(k, i);
+      k.store_to(motions);
     }
   }
 }
 
 template <class S>
-void prepare(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const PassSettings<S>&) {
-  for_each_vector<S, false>(motions, blocks, count, [](Lanes<S>& k) HWY_ATTR { prepare_lanes(k); });
-}
-
-template <class S>
 void warm_start(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const PassSettings<S>&) {
-  for_each_vector<S, true>(motions, blocks, count, [](Lanes<S>& k) HWY_ATTR { warm_start_lanes(k); });
+  for_each_vector<S>(motions, blocks, count, [](Lanes<S>& k, std::size_t) HWY_ATTR { warm_start_lanes(k); });
 }
 
 // With bias friction comes first, so that the last word before bodies move is that they do not penetrate.
 template <class S>
 void solve(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const PassSettings<S>& settings) {
-  for_each_vector<S, true>(motions, blocks, count, [&settings](Lanes<S>& k) HWY_ATTR {
-    if (settings.friction) solve_friction(k);
-    solve_normals<S, true>(k, settings);
+  for_each_vector<S>(motions, blocks, count, [&settings](Lanes<S>& k, std::size_t) HWY_ATTR {
+    PointLanes<S>&p1 = k.block.points[0], &p2 = k.block.points[1];
+    const Arms<S> r1(k, p1), r2(k, p2);
+    if (settings.friction) {
+      const auto friction = load(k.block.friction + k.lane);
+      solve_friction(k, r1, p1, friction, load(p1.normal_impulse + k.lane));
+      solve_friction(k, r2, p2, friction, load(p2.normal_impulse + k.lane));
+    }
+    solve_normals<S, true>(k, r1, r2, settings);
   });
 }
 
@@ -391,20 +452,29 @@ void solve(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const
 // would make a slope a little too slippery.
 template <class S>
 void relax(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const PassSettings<S>& settings) {
-  for_each_vector<S, true>(motions, blocks, count, [&settings](Lanes<S>& k) HWY_ATTR {
-    solve_normals<S, false>(k, settings);
-    if (settings.friction) solve_friction(k);
-    add_to_totals(k, settings);
+  for_each_vector<S>(motions, blocks, count, [&settings](Lanes<S>& k, std::size_t) HWY_ATTR {
+    PointLanes<S>&p1 = k.block.points[0], &p2 = k.block.points[1];
+    const Arms<S> r1(k, p1), r2(k, p2);
+    const auto normals = solve_normals<S, false>(k, r1, r2, settings);
+    if (settings.friction) {
+      const auto friction = load(k.block.friction + k.lane);
+      solve_friction(k, r1, p1, friction, normals.first);
+      solve_friction(k, r2, p2, friction, normals.second);
+    }
+    add_to_totals(k, p1, normals.first, settings);
+    add_to_totals(k, p2, normals.second, settings);
   });
 }
 
 template <class S>
-void restitute(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const PassSettings<S>& settings) {
-  for_each_vector<S, true>(motions, blocks, count, [&settings](Lanes<S>& k) HWY_ATTR { restitute_lanes(k, settings); });
+void restitute(Motion<S>* motions, ContactBlock<S>* blocks, const ContactBlockRest<S>* rest, std::size_t count,
+               const PassSettings<S>& settings) {
+  for_each_vector<S>(motions, blocks, count,
+                     [&settings, rest](Lanes<S>& k, std::size_t i) HWY_ATTR { restitute_lanes(k, rest[i], settings); });
 }
 
 template <class S>
-constexpr ContactPasses<S> kPasses{prepare<S>, warm_start<S>, solve<S>, relax<S>, restitute<S>};
+constexpr ContactPasses<S> kPasses{take<S>, warm_start<S>, solve<S>, relax<S>, restitute<S>};
 
 }  // namespace
 

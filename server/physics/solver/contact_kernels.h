@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "physics/solver/constraint.h"
+#include "physics/body.h"
+#include "physics/contact_block.h"
+#include "physics/narrow_phase/box_kernels.h"
 
 namespace urto {
 
@@ -22,16 +24,18 @@ struct PassSettings {
   bool friction;
 };
 
-// One pass over all blocks, in order. Motions are by body slot.
 template <class S>
 struct ContactPasses {
   using Pass = void (*)(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count,
                         const PassSettings<S>& settings);
-  Pass prepare;     // masses, coupling and approach speeds from anchors and velocities
+  // Takes over new manifolds: impulses are carried over by feature id; masses, coupling and approach speeds follow.
+  void (*take)(const Motion<S>* motions, const ManifoldLanes<S>& manifolds, ContactBlock<S>& block,
+               ContactBlockRest<S>& rest);
   Pass warm_start;  // applies the impulses of the last sub-step
   Pass solve;       // with bias: pushes overlap apart
   Pass relax;       // without; also keeps the totals and the preload
-  Pass restitute;
+  void (*restitute)(Motion<S>* motions, ContactBlock<S>* blocks, const ContactBlockRest<S>* rest, std::size_t count,
+                    const PassSettings<S>& settings);
 };
 
 template <class S>

@@ -3,6 +3,7 @@
 #include "physics/constants.h"
 #include "physics/motion.h"
 #include "physics/solver/contact_kernels.h"
+#include "physics/solver/softness.h"
 
 namespace urto {
 namespace {
@@ -11,7 +12,8 @@ namespace {
 // have seen, which is what semi-implicit Euler gives.
 template <class S>
 bool flies(const WorldData<S>& world, std::uint32_t slot) {
-  return world.model.second_integrator && world.scratch.colors[slot] == 0;
+  const std::vector<std::uint64_t>& taken = world.touching.taken;
+  return world.model.second_integrator && (slot >= taken.size() || taken[slot] == 0);
 }
 
 template <class S>
@@ -46,17 +48,16 @@ PassSettings<S> pass_settings(const WorldData<S>& world, S h) {
 }  // namespace
 
 template <class S>
-void solve_soft_step(WorldData<S>& world, ConstraintSet<S>& set) {
+void solve_soft_step(WorldData<S>& world) {
   const std::uint32_t n = world.settings.sub_steps;
   const S h = S(world.settings.time_step / n);
   const Mover<S> mover(world, h);
   const PassSettings<S> settings = pass_settings(world, h);
   const ContactPasses<S>& passes = contact_passes<S>();
   const auto run = [&](typename ContactPasses<S>::Pass pass) {
-    pass(world.motions.data(), set.blocks.data(), set.blocks.size(), settings);
+    for (auto& color : world.touching.colors)
+      if (!color.blocks.empty()) pass(world.motions.data(), color.blocks.data(), color.blocks.size(), settings);
   };
-  gather_contacts(world, set);
-  run(passes.prepare);
   for (std::uint32_t i = 0; i < n; ++i) {
     integrate_velocities(world, mover);
     run(passes.warm_start);
@@ -64,11 +65,13 @@ void solve_soft_step(WorldData<S>& world, ConstraintSet<S>& set) {
     integrate_positions(world, mover);
     run(passes.relax);
   }
-  if (world.model.restitution) run(passes.restitute);
-  store_impulses(world, set);
+  if (!world.model.restitution) return;
+  for (auto& color : world.touching.colors)
+    if (!color.blocks.empty())
+      passes.restitute(world.motions.data(), color.blocks.data(), color.rest.data(), color.blocks.size(), settings);
 }
 
-template void solve_soft_step(WorldData<float>&, ConstraintSet<float>&);
-template void solve_soft_step(WorldData<double>&, ConstraintSet<double>&);
+template void solve_soft_step(WorldData<float>&);
+template void solve_soft_step(WorldData<double>&);
 
 }  // namespace urto

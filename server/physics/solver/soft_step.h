@@ -1,6 +1,6 @@
 #pragma once
 
-#include "physics/solver/constraint.h"
+#include "physics/data.h"
 
 namespace urto {
 
@@ -8,12 +8,12 @@ namespace urto {
 // "Soft Step" of Box2D v3 (Catto, "Solver2D", 2024). Ours differs in that
 // - impulses act at one world point for both bodies while they drift, so angular momentum is conserved
 //   (but for bodies that race past each other, kDriftFraction);
-// - the soft contacts have a preload, so that stacks do not stay sunk under their weight (constraint.cpp, Softness);
+// - the soft contacts have a preload, so that stacks do not stay sunk under their weight (softness.h);
 // - two points of a manifold are solved together, so that a stack does not creep sideways.
 //
 // Per sub-step: integrate velocities, warm start, solve with bias, integrate positions, relax (solve without bias).
-// After the last: restitution, store impulses. `set` is a buffer that keeps its capacity between steps.
+// After the last: restitution. Works on the lanes of the contact set in place.
 template <class S>
-void solve_soft_step(WorldData<S>& world, ConstraintSet<S>& set);
+void solve_soft_step(WorldData<S>& world);
 
 }  // namespace urto

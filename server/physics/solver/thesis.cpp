@@ -136,8 +136,8 @@ void collide_pair(WorldData<S>& world, const Pair<S>& pair) {
 
 template <class S>
 void forget_points(WorldData<S>& world) {
-  for (std::uint32_t slot : world.active) {
-    Contact<S>& c = world.contacts[slot];
+  for (const ActiveContact& active : world.active) {
+    Contact<S>& c = world.contacts[active.contact];
     if (c.sensor()) continue;
     c.count = 0;
     c.points[0] = c.points[1] = ManifoldPoint<S>{};
@@ -153,8 +153,8 @@ void solve_thesis(WorldData<S>& world) {
   forget_points(world);
   for (std::uint32_t i = 0; i < n; ++i) {
     for (std::uint32_t slot : world.awake) mover.fly(world.bodies[slot], world.motions[slot]);
-    for (std::uint32_t slot : world.active) {
-      Contact<S>& c = world.contacts[slot];
+    for (const ActiveContact& active : world.active) {
+      Contact<S>& c = world.contacts[active.contact];
       if (c.sensor()) continue;
       collide_pair(world, Pair<S>{c, world.bodies[c.body_a], world.bodies[c.body_b], world.motions[c.body_a],
                                   world.motions[c.body_b]});

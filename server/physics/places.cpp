@@ -1,0 +1,60 @@
+#include "physics/places.h"
+
+#include "physics/data.h"
+
+namespace urto {
+namespace {
+
+template <class S>
+Place<S> place_of(const WorldData<S>& world, const Body<S>& body, const Motion<S>& motion, Proxy proxy) {
+  const Shape<S>& shape = world.shapes[proxy];
+  const Convex<S>& convex = world.convexes[proxy];
+  const S time_step = S(world.settings.time_step);
+  Place<S> place;
+  const Vec<S> offset = body.rotation().apply(convex.centroid - body.local_center());
+  place.offset_x = offset.x();
+  place.offset_y = offset.y();
+  place.x = body.x + offset.x();
+  place.y = body.y + offset.y();
+  place.reach = shape.reach;
+  // What closes in by more than half a thickness is the business of continuous collision.
+  place.bound = body.dynamic() ? S(0.5) * body.extent_min : S(kCoordinateMax);
+  if (body.dynamic()) place.turn = absolute(motion.w) * body.extent_max * time_step;
+  place.way_x = motion.vx * time_step;
+  place.way_y = motion.vy * time_step;
+  if (shape.shape_kind() != ShapeKind::kBox || convex.radius > S(0) ||
+      world.settings.narrow_phase != NarrowPhaseKind::kSat)
+    return place;
+  // The box's own axis: the normal of its face to the right.
+  const Vec<S> axis = body.rotation().apply(convex.normals[1]);
+  place.c = axis.x();
+  place.s = axis.y();
+  place.half_width = shape.half_width;
+  place.half_height = shape.half_height;
+  place.box = S(1);
+  return place;
+}
+
+}  // namespace
+
+template <class S>
+void refresh_places(WorldData<S>& world, std::uint32_t slot) {
+  const Body<S>& body = world.bodies[slot];
+  world.places.resize(world.shapes.size());
+  for (Proxy p = body.first_shape; p != kNone; p = world.shapes[p].next)
+    world.places[p] = place_of(world, body, world.motions[slot], p);
+}
+
+template <class S>
+void refresh_awake_places(WorldData<S>& world) {
+  for (std::uint32_t slot : world.awake) refresh_places(world, slot);
+}
+
+#define URTO_INSTANTIATE(S)                                   \
+  template void refresh_places(WorldData<S>&, std::uint32_t); \
+  template void refresh_awake_places(WorldData<S>&);
+URTO_INSTANTIATE(float)
+URTO_INSTANTIATE(double)
+#undef URTO_INSTANTIATE
+
+}  // namespace urto

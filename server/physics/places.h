@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+
+#include "physics/definitions.h"
+
+namespace urto {
+
+// A shape as the narrow phase sees it in one step: one cache line (two in double), read by rows of four.
+template <class S>
+struct alignas(16 * sizeof(S)) Place {
+  S x = 0, y = 0;                     // m, the shape's centroid, world frame
+  S c = 1, s = 0;                     // of a box's own x axis, world frame
+  S half_width = 0, half_height = 0;  // m, of a box
+  S offset_x = 0, offset_y = 0;       // m, from the body's centre of mass to the centroid, world axes
+  S reach = 0;                        // m, speculative distance
+  S bound = 0;                        // m, no more than this is added to it for the way the shapes close in
+  S turn = 0;                         // m, how far the body's farthest point turns in a step
+  S box = 0;                          // 1: a plain box, which box_kernels.h may take; 0: any other shape
+  S way_x = 0, way_y = 0;             // m, how far the body comes in a step at its velocity
+  S unused_1 = 0, unused_2 = 0;       // no padding
+};
+
+template <class S>
+struct WorldData;
+
+// Sets the places of a body's shapes as the body is now.
+template <class S>
+void refresh_places(WorldData<S>& world, std::uint32_t slot);
+
+// Those of all awake bodies.
+template <class S>
+void refresh_awake_places(WorldData<S>& world);
+
+}  // namespace urto
