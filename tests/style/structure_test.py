@@ -181,6 +181,9 @@ def test_the_schema_is_documented(path):
 
 @pytest.mark.parametrize("path", [path for path in of_kind(".h") if name(path).startswith("server/")], ids=name)
 def test_a_header_is_guarded(path):
+    if path.name.endswith("-inl.h"):  # meant to be read once for each instruction set, by Highway's own guard
+        assert "HWY_TARGET_TOGGLE" in path.read_text(encoding="utf-8")
+        return
     assert "#pragma once" in path.read_text(encoding="utf-8").splitlines()[:5]
 
 
