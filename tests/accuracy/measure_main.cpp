@@ -1,0 +1,154 @@
+// Measures a case in one engine and prints a line of JSON.
+//
+//   accuracy_ENGINE --list                                the cases: row, names, levels
+//   accuracy_ENGINE CASE METHOD [--runs N]                the error, and the least CPU time of N runs
+//   accuracy_ENGINE --check                               every level: one line each of those that are not met
+//   … --simd NAME                                         the instruction set, e.g. AVX2 (Urto)
+
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "accuracy/case.h"
+#include "accuracy/engine.h"
+#include "accuracy/method_text.h"
+#include "physics/solver/contact_kernels.h"
+
+namespace urto::accuracy {
+namespace {
+
+// Of the whole program: with several threads, of all of them.
+double cpu_seconds() {
+  timespec now;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+std::string quoted(const std::string& text) {
+  std::string out(1, '"');
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  out += '"';
+  return out;
+}
+
+// JSON has no infinity.
+std::string number(double value) {
+  if (!std::isfinite(value)) return "null";
+  char text[40];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+void print_list() {
+  for (const Case& each : all_cases()) {
+    std::string levels;
+    for (const Level& level : each.levels)
+      levels += (levels.empty() ? "" : ",") + quoted(name_of(level.profile)) + ":" + number(level.error_max);
+    std::printf(
+        "{\"row\":%d,\"case\":%s,\"title\":%s,\"metric\":%s,\"unit\":%s,\"curves\":%s,\"long\":%s,"
+        "\"levels\":{%s}}\n",
+        each.row, quoted(each.name).c_str(), quoted(each.title).c_str(), quoted(each.metric).c_str(),
+        quoted(each.unit).c_str(), each.curves == Curves::kIntegrators ? "\"integrators\"" : "\"solvers\"",
+        each.is_long ? "true" : "false", levels.c_str());
+  }
+}
+
+void measure(const Case& a_case, const Method& method, int runs) {
+  std::string head = std::string("{\"engine\":") + quoted(engine_name()) + ",\"version\":" + quoted(engine_version()) +
+                     ",\"case\":" + quoted(a_case.name) + ",\"method\":" + quoted(method.name);
+  double error = 0, cost = std::numeric_limits<double>::infinity();
+  try {
+    for (int run = 0; run < runs; ++run) {
+      Lab lab(make_engine, method, cpu_seconds);
+      error = error_of(a_case, lab);
+      cost = std::min(cost, lab.cpu_seconds() / lab.simulated_seconds());
+    }
+  } catch (const Lacks& lacks) {
+    std::printf("%s,\"lacks\":%s}\n", head.c_str(), quoted(lacks.what()).c_str());
+    return;
+  }
+  std::printf("%s,\"error\":%s,\"cpu_s_per_s\":%s,\"runs\":%d}\n", head.c_str(), number(error).c_str(),
+              number(cost).c_str(), runs);
+}
+
+// As tests/accuracy/expected_failures.txt has them.
+void check(bool with_long) {
+  for (const Case& each : all_cases()) {
+    for (const Level& level : each.levels) {
+      if (each.is_long && !with_long) continue;
+      const double start = cpu_seconds();
+      Lab lab(make_engine, method_of(level.profile));
+      double error = std::numeric_limits<double>::infinity();
+      try {
+        error = error_of(each, lab);
+      } catch (const Lacks&) {
+        continue;
+      }
+      std::fprintf(stderr, "%-28s %-20s %.3g (level %.3g)%s  %.2f s\n", each.name.c_str(),
+                   name_of(level.profile).c_str(), error, level.error_max, error <= level.error_max ? "" : "  MISSED",
+                   cpu_seconds() - start);
+      if (!(error <= level.error_max))
+        std::printf("%d %s %s %.4g\n", each.row, each.name.c_str(), name_of(level.profile).c_str(), error);
+    }
+  }
+}
+
+void choose_simd(const std::string& name) {
+  for (const SimdTarget& target : simd_targets())
+    if (target.name == name) return use_simd_target(target.id);
+  std::string known;
+  for (const SimdTarget& target : simd_targets()) known += " " + target.name;
+  throw std::invalid_argument("this machine has no " + name + " but" + known);
+}
+
+int run(const std::vector<std::string>& words) {
+  std::vector<std::string> names;
+  int runs = 1;
+  bool list = false, checking = false, with_long = false;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == "--runs") {
+      runs = std::stoi(words.at(++i));
+    } else if (words[i] == "--simd") {
+      choose_simd(words.at(++i));
+    } else if (words[i] == "--list") {
+      list = true;
+    } else if (words[i] == "--check") {
+      checking = true;
+    } else if (words[i] == "--long") {
+      with_long = true;
+    } else {
+      names.push_back(words[i]);
+    }
+  }
+  if (list) {
+    print_list();
+  } else if (checking) {
+    check(with_long);
+  } else if (names.size() == 2 && find_case(names[0])) {
+    measure(*find_case(names[0]), method_from(names[1]), runs);
+  } else {
+    throw std::invalid_argument("usage: CASE METHOD [--runs N] [--simd NAME], --list, or --check [--long]");
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace urto::accuracy
+
+int main(int count, char** values) {
+  try {
+    return urto::accuracy::run({values + 1, values + count});
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", values[0], error.what());
+    return 2;
+  }
+}

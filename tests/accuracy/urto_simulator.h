@@ -1,0 +1,10 @@
+#pragma once
+
+#include "accuracy/simulator.h"
+
+namespace urto::accuracy {
+
+// Urto through its public World.
+std::unique_ptr<Simulator> make_urto(const WorldSettings& settings);
+
+}  // namespace urto::accuracy
