@@ -52,7 +52,10 @@ void print_list() {
   for (const Case& each : all_cases()) {
     std::string levels;
     for (const Level& level : each.levels)
-      levels += (levels.empty() ? "" : ",") + quoted(name_of(level.profile)) + ":" + number(level.error_max);
+      levels.append(levels.empty() ? "" : ",")
+          .append(quoted(name_of(level.profile)))
+          .append(":")
+          .append(number(level.error_max));
     std::printf(
         "{\"row\":%d,\"case\":%s,\"title\":%s,\"metric\":%s,\"unit\":%s,\"curves\":%s,\"long\":%s,"
         "\"levels\":{%s}}\n",

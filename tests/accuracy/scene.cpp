@@ -168,6 +168,12 @@ double overlap_max(const std::vector<BodyDef>& bodies, const std::vector<BodySta
   return deepest;
 }
 
+std::string numbered(long number) {
+  std::string text(1, '_');
+  text.append(std::to_string(number));
+  return text;
+}
+
 double Random::between(double low, double high) {
   std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;

@@ -3,6 +3,7 @@
 // What cases build their scenes from.
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "physics/definitions.h"
@@ -49,6 +50,9 @@ std::vector<Vec2> corners_of(const BodyDef& def, const BodyState& state);
 double overlap_of(const BodyDef& a, const BodyState& at_a, const BodyDef& b, const BodyState& at_b);
 // The deepest of all pairs.
 double overlap_max(const std::vector<BodyDef>& bodies, const std::vector<BodyState>& states);
+
+// For the names of cases: "_5".
+std::string numbered(long number);
 
 // Numbers that are the same with every compiler and library: splitmix64 (Steele, Lea and Flood 2014).
 class Random {

@@ -143,7 +143,7 @@ pub unsafe extern "C" fn rapier_touches(this: &RapierWorld, out: *mut RapierTouc
     };
     let mut count = 0;
     for pair in this.world.narrow_phase.contact_pairs() {
-        for manifold in &pair.manifolds {
+        for manifold in pair.manifolds() {
             for point in &manifold.points {
                 if count < most {
                     let touch = RapierTouch {

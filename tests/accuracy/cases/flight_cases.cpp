@@ -175,7 +175,7 @@ void add_flight_cases(std::vector<Case>& cases) {
   cases.push_back({1, "ballistic_law", "the same against each integrator's own law of error", "deviation from the law",
                    "relative", for_integrators(1e-12), ballistic_law, Curves::kIntegrators});
   for (const double speed : {1.0, 20.0, 100.0, 500.0}) {
-    const std::string suffix = std::string("_") + std::to_string(static_cast<int>(speed));
+    const std::string suffix = numbered(std::lround(speed));
     const double turn = speed * kSpinSteps / 60;
     cases.push_back({2,
                      "spin_angle" + suffix,

@@ -76,8 +76,7 @@ double rod_energy(Lab& lab, double friction) {
 
 void add_rest_cases(std::vector<Case>& cases) {
   for (const int count : {1, 5}) {
-    const std::string suffix = std::string("_") + std::to_string(count),
-                      what = std::to_string(count) + " resting boxes, a minute";
+    const std::string suffix = numbered(count), what = std::to_string(count) + " resting boxes, a minute";
     cases.push_back({21,
                      "rest_speed" + suffix,
                      what,

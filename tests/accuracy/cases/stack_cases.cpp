@@ -102,8 +102,7 @@ Case long_one(Case each) {
 
 void add_stack_cases(std::vector<Case>& cases) {
   for (const int count : {10, 50, 100}) {
-    const std::string suffix = std::string("_") + std::to_string(count),
-                      what = std::string("a stack of ") + std::to_string(count) + " boxes";
+    const std::string suffix = numbered(count), what = std::string("a stack of ") + std::to_string(count) + " boxes";
     cases.push_back({23,
                      "stack_sinks" + suffix,
                      what + ", 60 s",
