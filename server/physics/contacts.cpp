@@ -86,6 +86,7 @@ void release_parted(WorldData<S>& world) {
     release_lane(world, slot);
     Contact<S>& c = world.contacts[slot];
     c.count = 0;
+    c.nx = c.ny = S(0);
     c.points[0] = c.points[1] = ManifoldPoint<S>{};
     if (!c.touching()) continue;
     c.flags ^= kContactTouching;
