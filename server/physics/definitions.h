@@ -21,7 +21,7 @@ enum class BodyType : std::uint8_t { kStatic, kKinematic, kDynamic };
 enum class Precision : std::uint8_t { kFloat, kDouble };
 enum class BroadPhaseKind : std::uint8_t { kAuto, kBruteForce, kQuadtree, kBvh };
 enum class NarrowPhaseKind : std::uint8_t { kSat, kGjk };
-enum class SolverKind : std::uint8_t { kSoftStep, kThesis };
+enum class SolverKind : std::uint8_t { kSoftStep, kThesis, kPrecise };  // kPrecise: double only
 enum class Integrator : std::uint8_t { kSemiImplicitEuler, kExplicitEuler, kVerlet, kRungeKutta4 };
 enum class Mixing : std::uint8_t { kGeometricMean, kMaximum, kMinimum, kAverage };
 

@@ -57,8 +57,9 @@ Model choose_model(const WorldSettings& settings, const Needs& needs) {
   model.damping = needs.damped_bodies > 0;
   model.fields = !settings.fields.empty();
   model.second_integrator = settings.integrator != Integrator::kSemiImplicitEuler;
-  model.sleeping = settings.sleeping && settings.solver == SolverKind::kSoftStep;
-  model.continuous = settings.continuous && needs.dynamic_bodies > 0;
+  model.sleeping = settings.sleeping && settings.solver != SolverKind::kThesis;
+  // The precise solver follows every way itself.
+  model.continuous = settings.continuous && needs.dynamic_bodies > 0 && settings.solver != SolverKind::kPrecise;
   return model;
 }
 

@@ -109,10 +109,14 @@ void WorldOf<S>::step() {
 
 template <class S>
 void WorldOf<S>::solve() {
-  if (data_.settings.solver == SolverKind::kThesis) {
-    solve_thesis(data_);
-  } else {
-    solve_soft_step(data_);
+  switch (data_.settings.solver) {
+    case SolverKind::kSoftStep:
+      return solve_soft_step(data_);
+    case SolverKind::kThesis:
+      return solve_thesis(data_);
+    case SolverKind::kPrecise:
+      if constexpr (std::is_same_v<S, double>) precise_.solve(data_);
+      return;
   }
 }
 

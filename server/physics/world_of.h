@@ -1,6 +1,7 @@
 #pragma once
 
 #include "physics/data.h"
+#include "physics/solver/precise/precise.h"
 #include "physics/world.h"
 
 namespace urto {
@@ -64,6 +65,7 @@ class WorldOf final : public World {
   void run(Phase phase, PhaseFunction&& function);
 
   WorldData<S> data_;
+  PreciseSolver precise_;  // kept for its capacity
   Clock clock_;
   Profile profile_;
 };

@@ -1,0 +1,129 @@
+#include "physics/constants.h"
+#include "physics/solver/precise/step.h"
+#include "physics/solver/precise/tolerances.h"
+
+namespace urto {
+namespace {
+
+void set_row(double* row, const Vec2& u, const TouchPoint& p, const Body<double>& a, const Body<double>& b) {
+  row[0] = -u.x();
+  row[1] = -u.y();
+  row[2] = a.inv_inertia > 0.0 ? -cross<double>(p.arm_a, u) : 0.0;
+  row[3] = u.x();
+  row[4] = u.y();
+  row[5] = b.inv_inertia > 0.0 ? cross<double>(p.arm_b, u) : 0.0;
+}
+
+ProblemBody problem_body(const Body<double>& body) {
+  ProblemBody out;
+  out.inverse_mass[0] = out.inverse_mass[1] = body.inv_mass;
+  out.inverse_mass[2] = body.inv_inertia;
+  out.mass[0] = out.mass[1] = body.mass;
+  out.mass[2] = body.inv_inertia > 0.0 ? body.inertia : 1.0;
+  return out;
+}
+
+}  // namespace
+
+// kImpact: velocities at once. kForces: velocities after `duration`. kPlaces: shifts that part what overlaps.
+void PreciseStep::build_problem(Purpose purpose, double duration) {
+  problem_.clear();
+  origins_.clear();
+  for (std::uint32_t slot : cluster_) {
+    ProblemBody body = problem_body(world_->bodies[slot]);
+    const Path& path = paths_[slot];
+    if (purpose != Purpose::kPlaces) {
+      body.free[0] = path.vx + duration * path.gain_x;
+      body.free[1] = path.vy + duration * path.gain_y;
+      body.free[2] = path.w + duration * path.gain_w;
+    }
+    problem_.bodies.push_back(body);
+  }
+  for (std::uint32_t i = 0; i < touching_.size(); ++i) {
+    Pair& pair = pairs_[touching_[i].contact];
+    for (int k = 0; k < touching_[i].touch.count; ++k) {
+      if (purpose == Purpose::kForces) {
+        if (parting(touching_[i], k) > kRestSpeed) {
+          pair.parting = 1;
+          continue;
+        }
+        ++pair.held;
+      }
+      add_point(purpose, i, static_cast<std::uint32_t>(k), duration);
+    }
+  }
+}
+
+void PreciseStep::add_point(Purpose purpose, std::uint32_t index, std::uint32_t k, double duration) {
+  const Touching& t = touching_[index];
+  const Contact<double>& c = world_->contacts[t.contact];
+  const Body<double>&a = world_->bodies[c.body_a], &b = world_->bodies[c.body_b];
+  const TouchPoint& touch = t.touch.points[k];
+  const Vec2 normal = t.touch.normal, tangent = cross<double>(normal, 1.0);
+  ProblemPoint p;
+  set_row(p.normal, normal, touch, a, b);
+  set_row(p.tangent, tangent, touch, a, b);
+  if (a.dynamic()) p.a = locals_[c.body_a];
+  if (b.dynamic()) p.b = locals_[c.body_b];
+  if (purpose == Purpose::kPlaces) {
+    p.target = touch.gap < -kPenetrationMin ? min_of(-kPenetrationShare * touch.gap, kPushSpeedMax * h_) : 0.0;
+  } else {
+    // What cannot be moved may move by itself.
+    const Path still, &path_a = a.dynamic() ? still : paths_[c.body_a], &path_b = b.dynamic() ? still : paths_[c.body_b];
+    p.drive_normal = parting_speed(normal, touch.arm_a, path_a, touch.arm_b, path_b);
+    p.drive_tangent = parting_speed(tangent, touch.arm_a, path_a, touch.arm_b, path_b);
+    p.friction = world_->model.friction ? c.friction : 0.0;
+  }
+  if (purpose == Purpose::kForces) {
+    p.normal_impulse = c.points[k].normal_impulse * (duration / h_);
+    p.tangent_impulse = c.points[k].tangent_impulse * (duration / h_);
+  }
+  problem_.points.push_back(p);
+  origins_.push_back({index, k});
+}
+
+// Overlap is taken back by a shift alone, the least in terms of mass: it gives nobody a velocity.
+void PreciseStep::part_overlaps() {
+  bool overlaps = false;
+  for (const Touching& t : touching_)
+    for (int i = 0; i < t.touch.count; ++i) overlaps |= t.touch.points[i].gap < -kPenetrationMin;
+  if (!overlaps) return;
+  build_problem(Purpose::kPlaces, 0.0);
+  solve(problem_, workspace_);
+  for (std::size_t i = 0; i < cluster_.size(); ++i) {
+    Path& path = paths_[cluster_[i]];
+    path.dx += problem_.bodies[i].velocity[0];
+    path.dy += problem_.bodies[i].velocity[1];
+    path.da += problem_.bodies[i].velocity[2];
+  }
+}
+
+void PreciseStep::find_forces(double now) {
+  const double duration = h_ - now;
+  for (std::uint32_t slot : cluster_) thrust_->accelerate(world_->bodies[slot], paths_[slot], h_);
+  build_problem(Purpose::kForces, duration);
+  if (problem_.points.empty()) return;
+  solve(problem_, workspace_);
+  for (std::size_t i = 0; i < cluster_.size(); ++i) {
+    Path& path = paths_[cluster_[i]];
+    const ProblemBody& body = problem_.bodies[i];
+    const double x = (body.velocity[0] - body.free[0]) / duration, y = (body.velocity[1] - body.free[1]) / duration,
+                 w = (body.velocity[2] - body.free[2]) / duration;
+    path.ax += x;
+    path.ay += y;
+    path.aw += w;
+    path.gain_x += x;
+    path.gain_y += y;
+    path.gain_w += w;
+  }
+  for (std::size_t k = 0; k < origins_.size(); ++k) {
+    const ProblemPoint& p = problem_.points[k];
+    const std::uint32_t contact = touching_[origins_[k].touching].contact, point = origins_[k].point;
+    pairs_[contact].normal_force[point] = p.normal_impulse / duration;
+    pairs_[contact].tangent_force[point] = p.tangent_impulse / duration;
+    world_->contacts[contact].points[point].normal_impulse = p.normal_impulse * (h_ / duration);
+    world_->contacts[contact].points[point].tangent_impulse = p.tangent_impulse * (h_ / duration);
+  }
+}
+
+}  // namespace urto
