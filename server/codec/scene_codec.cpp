@@ -21,6 +21,7 @@ P enum_to_proto(E value) {
 static_assert(v1::PRECISION_DOUBLE == static_cast<int>(Precision::kDouble) + 1);
 static_assert(v1::NARROW_PHASE_GJK == static_cast<int>(NarrowPhaseKind::kGjk) + 1);
 static_assert(v1::SOLVER_THESIS == static_cast<int>(SolverKind::kThesis) + 1);
+static_assert(v1::SOLVER_PRECISE == static_cast<int>(SolverKind::kPrecise) + 1);
 static_assert(v1::INTEGRATOR_SEMI_IMPLICIT_EULER == static_cast<int>(Integrator::kSemiImplicitEuler) + 1);
 static_assert(v1::INTEGRATOR_EXPLICIT_EULER == static_cast<int>(Integrator::kExplicitEuler) + 1);
 static_assert(v1::INTEGRATOR_VERLET == static_cast<int>(Integrator::kVerlet) + 1);

@@ -31,6 +31,18 @@ const char* name_of(BroadPhaseKind kind) {
   return "auto";
 }
 
+const char* name_of(SolverKind solver) {
+  switch (solver) {
+    case SolverKind::kSoftStep:
+      return "soft step";
+    case SolverKind::kThesis:
+      return "thesis";
+    case SolverKind::kPrecise:
+      return "precise";
+  }
+  return "";
+}
+
 const char* name_of(Integrator integrator) {
   switch (integrator) {
     case Integrator::kSemiImplicitEuler:
@@ -66,7 +78,7 @@ Model choose_model(const WorldSettings& settings, const Needs& needs) {
 std::vector<Feature> explain_model(const WorldSettings& settings, const Needs& needs) {
   const Model model = choose_model(settings, needs);
   const bool asked_broad = settings.broad_phase != BroadPhaseKind::kAuto;
-  const bool soft = settings.solver == SolverKind::kSoftStep;
+  const bool thesis = settings.solver == SolverKind::kThesis, precise = settings.solver == SolverKind::kPrecise;
   const bool polygons = needs.boxes + needs.polygons + needs.capsules + needs.chain_segments > 0;
   std::vector<Feature> out;
   out.push_back(
@@ -81,8 +93,11 @@ std::vector<Feature> explain_model(const WorldSettings& settings, const Needs& n
                  count_of(needs.boxes, "boxes, ") + count_of(needs.polygons, "polygons, ") +
                      count_of(needs.capsules, "capsules, ") + count_of(needs.chain_segments, "chain segments, ") +
                      count_of(needs.circles, "circles")});
-  out.push_back({"solver", soft ? "soft step" : "thesis", true, count_of(settings.sub_steps, "sub-steps")});
-  out.push_back({"integrator", name_of(settings.integrator), true, "the scene names it"});
+  out.push_back({"solver", name_of(settings.solver), true,
+                 precise ? "the scene names it; impacts at their own time, forces by a direct solve"
+                         : count_of(settings.sub_steps, "sub-steps")});
+  out.push_back({"integrator", precise ? "exact flight" : name_of(settings.integrator), true,
+                 precise ? "of the precise solver; second order in force fields" : "the scene names it"});
   out.push_back({"rotation", needs.rotating_bodies > 0 ? "on" : "off", needs.rotating_bodies > 0,
                  count_of(needs.rotating_bodies, "bodies can turn")});
   out.push_back({"friction", model.friction ? "on" : "off", model.friction,
@@ -95,12 +110,13 @@ std::vector<Feature> explain_model(const WorldSettings& settings, const Needs& n
                  count_of(static_cast<std::uint32_t>(settings.fields.size()), "fields besides gravity")});
   out.push_back({"sensors", needs.sensors > 0 ? "on" : "off", needs.sensors > 0, count_of(needs.sensors, "sensors")});
   out.push_back({"sleeping", model.sleeping ? "on" : "off", model.sleeping,
-                 !soft               ? "the thesis's solver has no rest"
+                 thesis              ? "the thesis's solver has no rest"
                  : settings.sleeping ? "the default"
                                      : "the scene forbids it"});
   out.push_back({"continuous collision", model.continuous ? "on" : "off", model.continuous,
-                 settings.continuous ? "only bodies that move further than their half-thickness pay for it"
-                                     : "the scene forbids it"});
+                 precise               ? "the precise solver follows every way itself"
+                 : settings.continuous ? "only bodies that move further than their half-thickness pay for it"
+                                       : "the scene forbids it"});
   return out;
 }
 

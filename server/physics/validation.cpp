@@ -180,8 +180,8 @@ Status check_settings(const WorldSettings& s) {
       .above("time_step", s.time_step, 0, kTimeStepMax)
       .range("sub_steps", s.sub_steps, 1, kSubStepsMax)
       .range("restitution_threshold", s.restitution_threshold, 0, kSpeedMax)
-      .require(s.solver != SolverKind::kPrecise || s.precision == Precision::kDouble, ErrorCode::kInvalidValue, "solver",
-               "precise", "the precise solver needs double precision")
+      .require(s.solver != SolverKind::kPrecise || s.precision == Precision::kDouble, ErrorCode::kInvalidValue,
+               "solver", "precise", "the precise solver needs double precision")
       .require(s.fields.size() <= kForceFieldsMax, ErrorCode::kLimitReached, "fields", std::to_string(s.fields.size()),
                "too many force fields");
   for (std::size_t i = 0; i < s.fields.size(); ++i)

@@ -14,7 +14,7 @@ using testing::from_text;
 constexpr const char* kFullScene = R"(
 name: "full" description: "All there is."
 world {
-  precision: PRECISION_DOUBLE gravity { x: 1 y: 2 } time_step: 0.01 sub_steps: 7 solver: SOLVER_THESIS
+  precision: PRECISION_DOUBLE gravity { x: 1 y: 2 } time_step: 0.01 sub_steps: 7 solver: SOLVER_PRECISE
   integrator: INTEGRATOR_RUNGE_KUTTA_4 broad_phase: BROAD_PHASE_BVH narrow_phase: NARROW_PHASE_GJK
   sleeping: false continuous: false friction_mixing: MIXING_MINIMUM restitution_mixing: MIXING_AVERAGE
   restitution_threshold: 3

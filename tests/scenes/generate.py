@@ -528,6 +528,28 @@ def slope() -> Message:
     )
 
 
+def precise() -> Message:
+    """What iterations over contacts do not reach: heavy on light, and bounces that lose what they should."""
+    bodies = [ground(24, friction=0.6)]
+    for index, (exponent, color) in enumerate(((2, SEA), (4, AMBER), (6, CORAL))):
+        x = 3.0 * index - 8
+        bodies.append(body(box(1, 1), x, 0.5, name=f"light_{exponent}", color=CREAM, mass=1.0))
+        bodies.append(body(box(2, 1), x, 1.5, name=f"heavy_{exponent}", color=color, mass=10.0**exponent))
+    for index, (restitution, color) in enumerate(((1.0, TEAL), (0.8, OLIVE), (0.5, ROSE))):
+        shape = circle(0.5, friction=0.0, restitution=restitution)
+        bodies.append(body(shape, 2.0 + 3 * index, 5.5, name=f"ball_{round(10 * restitution)}", color=color))
+    description = (
+        "Boxes with a top 100, 10 000 and 1 000 000 times as heavy, and balls with restitution 1, 0.8 and 0.5 that "
+        "fall 5 m; by the precise solver."
+    )
+    world: Message = {
+        "precision": Enum("PRECISION_DOUBLE"),
+        "solver": Enum("SOLVER_PRECISE"),
+        "restitution_threshold": 0.001,
+    }
+    return scene("precise", description, (-11, -1.5, 11, 8), bodies, world)
+
+
 def arch(count: int = 11) -> Message:
     mean, thickness = 5.0, 1.0  # m; thickness/mean = 0.2, a semicircle falls below 0.1075 (Milankovitch)
     inner, outer = mean - thickness / 2, mean + thickness / 2
@@ -737,6 +759,7 @@ SCENES: tuple[Callable[[], Message], ...] = (
     dominoes,
     cradle,
     slope,
+    precise,
     arch,
     terrain,
     tumbler,

@@ -10,9 +10,9 @@ namespace urto {
 // A sparse system of linear equations in blocks of three (the velocity of a body), solved directly.
 //
 // The pattern is symmetric, the values need not be (sliding friction couples the tangent to the normal and not back).
-// Nodes are eliminated in the order of least degree (Markowitz 1957, Tinney and Walker 1967), ties by number, which keeps
-// the fill of flat contact graphs near n log n. There is no pivoting between blocks: a contact adds to the diagonal more
-// than it adds beside it.  Plain scalar loops in a fixed order: equal bits everywhere.
+// Nodes are eliminated in the order of least degree (Markowitz 1957, Tinney and Walker 1967), ties by number, which
+// keeps the fill of flat contact graphs near n log n. There is no pivoting between blocks: a contact adds to the
+// diagonal more than it adds beside it.  Plain scalar loops in a fixed order: equal bits everywhere.
 class BlockSystem {
  public:
   using Edge = std::pair<std::uint32_t, std::uint32_t>;

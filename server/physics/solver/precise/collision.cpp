@@ -2,7 +2,6 @@
 
 #include <limits>
 
-
 namespace urto {
 namespace {
 
@@ -191,8 +190,7 @@ void collide_at_points(const Collision& c, const Touch& touch, PointImpulse (&im
   }
   if (c.friction > 0.0)
     for (int sweep = 0; sweep < kFrictionSweeps; ++sweep) two.resist(more);
-  for (int i = 0; i < 2; ++i)
-    impulses[i] = {stop[i].normal + more[i].normal, stop[i].tangent + more[i].tangent};
+  for (int i = 0; i < 2; ++i) impulses[i] = {stop[i].normal + more[i].normal, stop[i].tangent + more[i].tangent};
   if (energy_of(c) <= before) return;
   c.path_a = start_a;
   c.path_b = start_b;

@@ -26,8 +26,7 @@ double inverse_mass_along(const ContactProblem& problem, const ProblemPoint& poi
   for (int side = 0; side < 2; ++side) {
     const std::uint32_t body = side == 0 ? point.a : point.b;
     if (body == kNone) continue;
-    for (int i = 0; i < 3; ++i)
-      sum += row[3 * side + i] * row[3 * side + i] * problem.bodies[body].inverse_mass[i];
+    for (int i = 0; i < 3; ++i) sum += row[3 * side + i] * row[3 * side + i] * problem.bodies[body].inverse_mass[i];
   }
   return sum;
 }

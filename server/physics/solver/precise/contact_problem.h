@@ -7,15 +7,15 @@
 
 namespace urto {
 
-// What touching bodies owe each other, as a problem of its own: which impulses λ at the contact points give velocities v
-// with
+// What touching bodies owe each other, as a problem of its own: which impulses λ at the contact points give velocities
+// v with
 //
 //   M (v − v_free) = Σ λn·n + λt·t                            Newton's law over the interval
 //   λn ≥ 0,  n·v ≥ target,  λn·(n·v − target) = 0             no tension, no penetration (Signorini)
 //   |λt| ≤ μ·λn,  t·v = 0 if less, else opposed to λt         friction (Coulomb)
 //
-// n and t are rows of six numbers: what a unit impulse does to the two bodies. In the plane the friction cone is a wedge,
-// so this is a linear complementarity problem, and exact.
+// n and t are rows of six numbers: what a unit impulse does to the two bodies. In the plane the friction cone is a
+// wedge, so this is a linear complementarity problem, and exact.
 enum class PointState : std::uint8_t { kOpen, kStick, kSlipPlus, kSlipMinus };  // slip: λt = ±μ·λn
 
 struct ProblemBody {

@@ -69,7 +69,8 @@ void PreciseStep::add_point(Purpose purpose, std::uint32_t index, std::uint32_t 
     p.target = touch.gap < -kPenetrationMin ? min_of(-kPenetrationShare * touch.gap, kPushSpeedMax * h_) : 0.0;
   } else {
     // What cannot be moved may move by itself.
-    const Path still, &path_a = a.dynamic() ? still : paths_[c.body_a], &path_b = b.dynamic() ? still : paths_[c.body_b];
+    const Path still, &path_a = a.dynamic() ? still : paths_[c.body_a],
+                      &path_b = b.dynamic() ? still : paths_[c.body_b];
     p.drive_normal = parting_speed(normal, touch.arm_a, path_a, touch.arm_b, path_b);
     p.drive_tangent = parting_speed(tangent, touch.arm_a, path_a, touch.arm_b, path_b);
     p.friction = world_->model.friction ? c.friction : 0.0;

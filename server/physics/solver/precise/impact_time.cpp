@@ -29,9 +29,7 @@ struct Runner {
     return stance;
   }
   // The greatest turning speed until then.
-  double turning(double end) const {
-    return max_of(absolute(now.w), absolute(now.w + (end - now.since) * path.aw));
-  }
+  double turning(double end) const { return max_of(absolute(now.w), absolute(now.w + (end - now.since) * path.aw)); }
   bool turns() const { return now.w != 0.0 || path.aw != 0.0; }
 };
 

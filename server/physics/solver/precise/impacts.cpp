@@ -38,8 +38,12 @@ const PreciseStep::Touching* PreciseStep::hardest_impact() const {
 }
 
 Collision PreciseStep::collision_of(const Contact<double>& c) {
-  return {world_->bodies[c.body_a], world_->bodies[c.body_b], paths_[c.body_a], paths_[c.body_b],
-          world_->model.friction ? c.friction : 0.0, c.restitution};
+  return {world_->bodies[c.body_a],
+          world_->bodies[c.body_b],
+          paths_[c.body_a],
+          paths_[c.body_b],
+          world_->model.friction ? c.friction : 0.0,
+          c.restitution};
 }
 
 void PreciseStep::add_impulse(std::uint32_t contact, std::uint32_t point, const PointImpulse& impulse) {

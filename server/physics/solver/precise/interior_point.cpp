@@ -10,9 +10,9 @@ namespace {
 struct Generator {
   std::size_t point;
   double row[6];
-  double bend;       // μ with the sign of the edge
-  double alpha, w;   // N·s, m/s: both stay positive
-  double defect;     // of w = d·v − target + μ |t·v|
+  double bend;        // μ with the sign of the edge
+  double alpha, w;    // N·s, m/s: both stay positive
+  double defect;      // of w = d·v − target + μ |t·v|
   double complement;  // what α w shall become, less α w
   double step_alpha, step_w;
 };
@@ -161,8 +161,6 @@ class InteriorPoint {
 
 }  // namespace
 
-void solve_by_interior_point(ContactProblem& problem, ProblemWorkspace& work) {
-  InteriorPoint(problem, work).run();
-}
+void solve_by_interior_point(ContactProblem& problem, ProblemWorkspace& work) { InteriorPoint(problem, work).run(); }
 
 }  // namespace urto

@@ -26,8 +26,8 @@ ProblemAnswer solve(ContactProblem& problem, ProblemWorkspace& work);
 //
 //   M + Σ stiffness·(n nᵀ [+ t tᵀ if it sticks] [± μ t nᵀ if it slips])
 //
-// which exists for any number of redundant points, and leaves determinate forces as they are: the multipliers make up for
-// what the stiffness lacks, in a few repetitions with the same factors.
+// which exists for any number of redundant points, and leaves determinate forces as they are: the multipliers make up
+// for what the stiffness lacks, in a few repetitions with the same factors.
 ProblemAnswer solve_by_newton(ContactProblem& problem, ProblemWorkspace& work, int rounds_max);
 
 // Shared with the interior-point method.

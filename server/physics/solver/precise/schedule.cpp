@@ -66,8 +66,7 @@ void PreciseStep::schedule(std::uint32_t contact, double now) {
   } else {
     const double from = max_of(now, pair.silent_until);
     if (from >= h_) return;
-    const Encounter encounter =
-        first_encounter(*world_, c, paths_[c.body_a], paths_[c.body_b], from, h_);
+    const Encounter encounter = first_encounter(*world_, c, paths_[c.body_a], paths_[c.body_b], from, h_);
     if (!encounter.meets) return;
     time = encounter.time;
   }

@@ -37,7 +37,8 @@ void PreciseStep::begin() {
   work_most_ = kWorkLeast + static_cast<std::uint64_t>(kWorkFactor) * world_->awake.size();
   for (std::uint32_t slot : world_->awake) start_path(slot, 0.0);
   for (const ActiveContact& active : world_->active) {
-    for (ManifoldPoint<double>& p : world_->contacts[active.contact].points) p.total_normal_impulse = p.total_tangent_impulse = 0;
+    for (ManifoldPoint<double>& p : world_->contacts[active.contact].points)
+      p.total_normal_impulse = p.total_tangent_impulse = 0;
   }
 }
 
@@ -121,7 +122,10 @@ void PreciseStep::take(const Event& event) {
   }
   // Not touching after all (a search that ran out of rounds, corners that pass each other): look again a little later.
   Pair& met = pairs_[event.contact];
-  if (met.held == 0 && !met.parting) met.silent_until = event.time + kSilence * h_;
+  if (met.held == 0 && !met.parting) {
+    met.silence = met.silence == 0.0 ? kSilence * h_ : kSilenceGrowth * met.silence;
+    met.silent_until = event.time + met.silence;
+  }
   widen_bounds(changed_);
   for (std::uint32_t slot : changed_) {
     for_each_contact_of(*world_, slot, [&](std::uint32_t contact) {

@@ -22,11 +22,12 @@ class PreciseStep {
     double normal_force[2] = {0, 0}, tangent_force[2] = {0, 0};  // N, at the contact's points
     double since = 0;                                            // s into the step: from when on they act
     double silent_until = 0;                                     // s into the step: not looked at before
+    double silence = 0;                                          // s, of the last time that it was looked at in vain
     std::uint32_t bounces = 0;
-    std::uint32_t touch_id = 0;  // of the first point
-    std::uint32_t cluster = 0;  // serial of the last one that saw it
-    std::uint32_t held = 0;     // points that the last settlement held closed
-    std::uint32_t parting = 0;  // 1: touched then, on the way apart
+    std::uint32_t touch_id = 0;   // of the first point
+    std::uint32_t cluster = 0;    // serial of the last one that saw it
+    std::uint32_t held = 0;       // points that the last settlement held closed
+    std::uint32_t parting = 0;    // 1: touched then, on the way apart
     std::uint32_t scheduled = 0;  // serial of the last cluster after which it was looked at
   };
   // Two shapes that touch within the cluster.

@@ -43,8 +43,10 @@ inline constexpr int kAdvancesMaxPrecise = 64;
 inline constexpr int kImpactRoundsMax = 256;
 // Bounces of a pair in one step: of more, as those of a ball that comes to rest, the rest is inelastic.
 inline constexpr unsigned kBouncesMax = 64;
-// A pair whose search ended without a touch is looked at again after this share of the step.
+// A pair whose search ended without a touch is looked at again after this share of the step, and then ever later:
+// one-sided segments let pass what comes from behind.
 inline constexpr double kSilence = 1e-3;
+inline constexpr double kSilenceGrowth = 4;
 // Bodies whose contacts may be solved anew in one step, in multiples of the awake ones. Beyond it a body stops where it
 // touches, keeps its velocity, and the next step goes on from there.
 inline constexpr unsigned kWorkFactor = 64;

@@ -100,8 +100,8 @@ class Toucher {
     double least_approach = 0;
     for (int i = 0; i < count; ++i) {
       const Candidate& f = faces[i];
-      const Touch touch = in_world(f.flip ? over_face(moved, f.face, a, reach, true)
-                                          : over_face(a, f.face, moved, reach, false));
+      const Touch touch =
+          in_world(f.flip ? over_face(moved, f.face, a, reach, true) : over_face(a, f.face, moved, reach, false));
       const double speed = approach(touch);
       if (i == 0) {
         best = touch;
@@ -159,8 +159,8 @@ double parting_speed(const Vec2& normal, const Vec2& arm_a, const Path& a, const
          normal.y() * ((b.vy - a.vy) + (b.w * arm_b.x() - a.w * arm_a.x()));
 }
 
-Touch find_touch(const WorldData<double>& world, const Contact<double>& contact, const Path& path_a,
-                 const Path& path_b, double reach) {
+Touch find_touch(const WorldData<double>& world, const Contact<double>& contact, const Path& path_a, const Path& path_b,
+                 double reach) {
   const Outline &a = world.convexes[contact.shape_a], &b = world.convexes[contact.shape_b];
   const Toucher toucher(world, contact, path_a, path_b);
   const bool sharp = a.count >= 3 && b.count >= 3 && a.radius == 0.0 && b.radius == 0.0;

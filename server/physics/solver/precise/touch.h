@@ -22,7 +22,7 @@ struct Touch {
 double parting_speed(const Vec2& normal, const Vec2& arm_a, const Path& a, const Vec2& arm_b, const Path& b);
 
 // Points further apart than reach are left out. Both paths tell of the same moment.
-Touch find_touch(const WorldData<double>& world, const Contact<double>& contact, const Path& path_a,
-                 const Path& path_b, double reach);
+Touch find_touch(const WorldData<double>& world, const Contact<double>& contact, const Path& path_a, const Path& path_b,
+                 double reach);
 
 }  // namespace urto

@@ -1,0 +1,208 @@
+// The precise solver as a scene gets it: levels that a reference in closed form allows.
+
+#include "physics/solver/precise/precise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "physics/support/scenes.h"
+
+namespace urto {
+namespace {
+
+using namespace testing;
+
+constexpr double kGravity = 9.81;
+
+WorldSettings precise_settings() {
+  WorldSettings settings;
+  settings.precision = Precision::kDouble;
+  settings.solver = SolverKind::kPrecise;
+  settings.sleeping = false;
+  settings.restitution_threshold = 0;
+  return settings;
+}
+
+BodyDef with_material(BodyDef def, double friction, double restitution) {
+  for (ShapeDef& shape : def.shapes) {
+    shape.material.friction = friction;
+    shape.material.restitution = restitution;
+  }
+  return def;
+}
+
+// N·s over the last step between two bodies.
+double impulse_between(const World& world, BodyId a, BodyId b) {
+  double sum = 0;
+  for (const ContactPoint& c : world.contacts())
+    if ((c.body_a == a && c.body_b == b) || (c.body_a == b && c.body_b == a)) sum += c.normal_impulse;
+  return sum;
+}
+
+TEST(Precise, NeedsDoublePrecision) {
+  WorldSettings settings = precise_settings();
+  settings.precision = Precision::kFloat;
+  const auto world = World::create(settings);
+  ASSERT_FALSE(world.has_value());
+  EXPECT_EQ(world.error().code, ErrorCode::kInvalidValue);
+  EXPECT_EQ(world.error().field, "solver");
+}
+
+// x = v t, y = v t − g t²/2. What remains is rounding: 600 steps of a coordinate of 500 m.
+TEST(Precise, FlightIsAParabola) {
+  auto world = make_world(precise_settings());
+  BodyDef def = ball_body(0, 0);
+  def.velocity = {3, 20};
+  const BodyId id = add(*world, def);
+  for (int i = 1; i <= 600; ++i) {
+    world->step();
+    const double t = i * world->settings().time_step;
+    const Vec2 p = world->body(id)->position;
+    ASSERT_NEAR(p.x(), 3 * t, 1e-12);
+    ASSERT_NEAR(p.y(), 20 * t - 0.5 * kGravity * t * t, 1e-12);
+  }
+}
+
+// What lies on contact k of N weighs (N − k) m g.
+TEST(Precise, ForcesOfAStack) {
+  for (int count : {1, 10, 50, 100}) {
+    auto world = make_world(precise_settings());
+    std::vector<BodyId> ids{add(*world, floor_body())};
+    for (BodyId id : add_stack(*world, count)) ids.push_back(id);
+    step_for(*world, 1);
+    const double h = world->settings().time_step;
+    for (int k = 0; k < count; ++k) {
+      const double load = (count - k) * kGravity * h;
+      EXPECT_NEAR(
+          impulse_between(*world, ids[static_cast<std::size_t>(k)], ids[static_cast<std::size_t>(k) + 1]) / load, 1,
+          1e-9)
+          << "contact " << k << " of " << count;
+    }
+  }
+}
+
+TEST(Precise, HeavyOnLight) {
+  for (double ratio : {1e2, 1e3, 1e4, 1e6}) {
+    auto world = make_world(precise_settings());
+    const BodyId ground = add(*world, floor_body()), light = add(*world, box_body(0, 0.5));
+    BodyDef def = box_body(0, 1.5);
+    def.mass = ratio;
+    const BodyId heavy = add(*world, def);
+    step_for(*world, 10);
+    const double load = (1 + ratio) * kGravity * world->settings().time_step;
+    EXPECT_NEAR(impulse_between(*world, ground, light) / load, 1, 1e-9) << ratio;
+    EXPECT_NEAR(world->body(heavy)->position.y(), 1.5, 1e-7) << ratio;
+  }
+}
+
+// A ball that bounces without loss follows 2√(2H/g) for twenty seconds.
+TEST(Precise, ElasticBounceKeepsItsEnergy) {
+  auto world = make_world(precise_settings());
+  add(*world, with_material(floor_body(), 0, 1));
+  const BodyId id = add(*world, with_material(ball_body(0, 5.5), 0, 1));
+  const double period = 2 * std::sqrt(2 * 5 / kGravity);
+  for (int i = 1; i <= 1200; ++i) {
+    world->step();
+    const double t = i * world->settings().time_step;
+    const double phase = std::remainder(t, period);  // 0 at an apex
+    ASSERT_NEAR(world->body(id)->position.y(), 5.5 - 0.5 * kGravity * phase * phase, 1e-9) << t;
+  }
+}
+
+// Apexes e²ⁿ H, and rest at t₀ (1 + e)/(1 − e).
+TEST(Precise, InelasticBounceComesToRest) {
+  constexpr double kE = 0.8;
+  auto world = make_world(precise_settings());
+  add(*world, with_material(floor_body(), 0, kE));
+  const BodyId id = add(*world, with_material(ball_body(0, 5.5), 0, kE));
+  const double fall = std::sqrt(2 * 5 / kGravity), rest = fall * (1 + kE) / (1 - kE);
+  step_for(*world, fall * (1 + 1.5 * kE));
+  const double since = world->step_count() * world->settings().time_step - fall * (1 + kE);  // after the first apex
+  EXPECT_NEAR(world->body(id)->position.y(), 0.5 + kE * kE * 5 - 0.5 * kGravity * since * since, 1e-9);
+  while (world->step_count() * world->settings().time_step < rest - 0.05) world->step();
+  EXPECT_GT(world->energy().kinetic, 1e-9);
+  step_for(*world, 0.1);
+  EXPECT_LT(world->energy().kinetic, 1e-20);
+  EXPECT_NEAR(world->body(id)->position.y(), 0.5, 1e-9);
+}
+
+// Five balls: the last leaves with the speed of the first, with gaps and without.
+TEST(Precise, CradleHandsTheBlowOn) {
+  for (double gap : {1e-3, 0.0}) {
+    WorldSettings settings = precise_settings();
+    settings.gravity = {0, 0};
+    auto world = make_world(settings);
+    std::vector<BodyId> ids;
+    for (int i = 0; i < 5; ++i) {
+      BodyDef def = with_material(ball_body(i == 0 ? -2 : i * (1 + gap), 0), 0, 1);
+      if (i == 0) def.velocity = {3, 0};
+      ids.push_back(add(*world, def));
+    }
+    step_for(*world, 2);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(world->body(ids[i])->velocity.x(), 0, 1e-12);
+    EXPECT_NEAR(world->body(ids[4])->velocity.x(), 3, 1e-12);
+  }
+}
+
+// The incline is the gravity's: it sticks below the angle of friction, and slides with g (sin θ − μ cos θ) above.
+TEST(Precise, BoxOnASlope) {
+  constexpr double kMu = 0.5, kDegree = 0.017453292519943295;
+  for (double beyond : {-0.1, 0.5}) {
+    const double slope = std::atan(kMu) + beyond * kDegree;
+    WorldSettings settings = precise_settings();
+    settings.gravity = kGravity * Vec2(std::sin(slope), -std::cos(slope));
+    auto world = make_world(settings);
+    add(*world, with_material(floor_body(1000), kMu, 0));
+    const BodyId id = add(*world, with_material(box_body(0, 0.5), kMu, 0));
+    step_for(*world, 10);
+    const double a = beyond < 0 ? 0 : kGravity * (std::sin(slope) - kMu * std::cos(slope));
+    EXPECT_NEAR(world->body(id)->velocity.x(), a * 10, 1e-9);
+    EXPECT_NEAR(world->body(id)->position.x(), 0.5 * a * 100, 1e-9);
+  }
+}
+
+TEST(Precise, SlidingStopsWhereItShould) {
+  for (double mu : {0.3, 0.47, 0.5}) {
+    auto world = make_world(precise_settings());
+    add(*world, with_material(floor_body(), mu, 0));
+    BodyDef def = with_material(box_body(0, 0.5), mu, 0);
+    def.velocity = {5, 0};
+    const BodyId id = add(*world, def);
+    step_for(*world, 3);
+    EXPECT_NEAR(world->body(id)->position.x(), 25 / (2 * mu * kGravity), 1e-4) << mu;
+    EXPECT_NEAR(world->body(id)->velocity.x(), 0, 1e-12);
+  }
+}
+
+// Every row of the pyramid rests on the ground in the end.
+TEST(Precise, PyramidStandsOnTheGround) {
+  auto world = make_world(precise_settings());
+  const BodyId ground = add(*world, floor_body());
+  const std::vector<BodyId> ids = add_pyramid(*world, 10);
+  step_for(*world, 2);
+  double force = 0;
+  for (const ContactPoint& c : world->contacts())
+    if (c.body_a == ground) force += c.normal_impulse / world->settings().time_step;
+  EXPECT_NEAR(force / (static_cast<double>(ids.size()) * kGravity), 1, 1e-9);
+  EXPECT_LT(world->energy().kinetic, 1e-18);
+}
+
+TEST(Precise, StepsOnAfterARestoreAsWithout) {
+  auto world = make_world(precise_settings());
+  add(*world, with_material(floor_body(), 0.5, 0.3));
+  for (int i = 0; i < 6; ++i) {
+    BodyDef def = with_material(box_body(0.3 * i, 1 + 1.2 * i), 0.5, 0.3);
+    def.angle = 0.3 * i;
+    add(*world, def);
+  }
+  step_for(*world, 1);
+  auto copy = make_world(precise_settings());
+  ASSERT_TRUE(copy->restore(world->save()).has_value());
+  step_for(*world, 1);
+  step_for(*copy, 1);
+  EXPECT_EQ(world->state_hash(), copy->state_hash());
+}
+
+}  // namespace
+}  // namespace urto
