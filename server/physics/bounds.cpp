@@ -6,18 +6,16 @@ namespace urto {
 namespace {
 
 template <class S>
-Aabb<S> tight_bounds(const Shape<S>& shape, const Convex<S>& convex, const Transform<S>& pose) {
-  if (shape.shape_kind() != ShapeKind::kBox && shape.shape_kind() != ShapeKind::kCircle) return convex.bounds(pose);
-  const Vec<S> center = pose.apply(convex.centroid);
+Aabb<S> tight_bounds(const Shape<S>& shape, const Convex<S>& convex, const Place<S>& place, const Body<S>& body) {
+  const ShapeKind kind = shape.shape_kind();
+  if (kind != ShapeKind::kBox && kind != ShapeKind::kCircle) return convex.bounds(body.pose());
   S ex = convex.radius, ey = convex.radius;
-  if (shape.shape_kind() == ShapeKind::kBox) {
-    // The box's own axis in the world: the normal of its first face, turned.
-    const Vec<S> axis = pose.q.apply(convex.normals[1]);
-    const S ax = absolute(axis.x()), ay = absolute(axis.y());
-    ex = ax * shape.half_width + ay * shape.half_height;
-    ey = ay * shape.half_width + ax * shape.half_height;
+  if (kind == ShapeKind::kBox) {
+    const S ax = absolute(place.c), ay = absolute(place.s);
+    ex = ax * place.half_width + ay * place.half_height;
+    ey = ay * place.half_width + ax * place.half_height;
   }
-  return {Vec<S>(center.x() - ex, center.y() - ey), Vec<S>(center.x() + ex, center.y() + ey)};
+  return {Vec<S>(place.x - ex, place.y - ey), Vec<S>(place.x + ex, place.y + ey)};
 }
 
 template <class S>
@@ -34,12 +32,11 @@ template <class S>
 Aabb<S> swept_bounds(const WorldData<S>& world, Proxy proxy) {
   const Shape<S>& shape = world.shapes[proxy];
   const Body<S>& body = world.bodies[shape.body];
-  Aabb<S> box = tight_bounds(shape, world.convexes[proxy], body.pose());
+  const Place<S>& place = world.places[proxy];
+  Aabb<S> box = tight_bounds(shape, world.convexes[proxy], place, body);
   if (!body.awake()) return box;
-  const Motion<S>& m = world.motions[shape.body];
-  const S dx = m.vx * S(world.settings.time_step), dy = m.vy * S(world.settings.time_step);
-  (dx < S(0) ? box.lower : box.upper).x() += dx;
-  (dy < S(0) ? box.lower : box.upper).y() += dy;
+  (place.way_x < S(0) ? box.lower : box.upper).x() += place.way_x;
+  (place.way_y < S(0) ? box.lower : box.upper).y() += place.way_y;
   return box;
 }
 
@@ -53,6 +50,7 @@ void mark_moved(WorldData<S>& world, Proxy proxy) {
 
 template <class S>
 void refresh_bounds(WorldData<S>& world, std::uint32_t slot) {
+  refresh_places(world, slot);
   for (Proxy proxy = world.bodies[slot].first_shape; proxy != kNone; proxy = world.shapes[proxy].next) {
     Shape<S>& shape = world.shapes[proxy];
     const Aabb<S> box = swept_bounds(world, proxy).expanded(shape.reach);
@@ -77,7 +75,7 @@ void reset_bounds(WorldData<S>& world, std::uint32_t slot) {
 template <class S>
 void update_broad_phase(WorldData<S>& world) {
   if (world.moved.empty()) return;
-  world.broad_phase->find_pairs(world.moved, world.scratch.pairs);
+  world.broad_phase->find_new_pairs(world.moved, world.scratch.pairs);
   for (Proxy proxy : world.moved) world.shapes[proxy].flags &= ~kShapeMoved;
   world.moved.clear();
   for (const auto& [low, high] : world.scratch.pairs) {

@@ -6,15 +6,16 @@ namespace urto {
 
 // Keeps the broad phase's bounds around the bodies, and finds the pairs they make.
 
-// Tight bounds of a shape now, stretched over the way its body will come in one step at its velocity.
+// Tight bounds of a shape at its place, stretched over the way its body will come in one step at its velocity.
 template <class S>
 Aabb<S> swept_bounds(const WorldData<S>& world, Proxy proxy);
 
-// Checks a body's proxies after it moved; those that left their fat bounds are moved in the broad phase.
+// Sets a body's places after it moved and checks its proxies; those that left their fat bounds are moved in the broad
+// phase.
 template <class S>
 void refresh_bounds(WorldData<S>& world, std::uint32_t slot);
 
-// Sets a body's bounds anew as they should be now, whatever they were.
+// Sets a body's places and bounds anew as they should be now, whatever they were.
 template <class S>
 void reset_bounds(WorldData<S>& world, std::uint32_t slot);
 

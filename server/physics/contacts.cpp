@@ -301,7 +301,6 @@ S reach_of(const Place<S>& a, const Place<S>& b) {
 
 template <class S>
 void update_contacts(WorldData<S>& world) {
-  refresh_awake_places(world);
   ActiveContacts<S>(world).update();
   update_lanes(world);
   release_parted(world);

@@ -22,16 +22,14 @@ Place<S> place_of(const WorldData<S>& world, const Body<S>& body, const Motion<S
   if (body.dynamic()) place.turn = absolute(motion.w) * body.extent_max * time_step;
   place.way_x = motion.vx * time_step;
   place.way_y = motion.vy * time_step;
-  if (shape.shape_kind() != ShapeKind::kBox || convex.radius > S(0) ||
-      world.settings.narrow_phase != NarrowPhaseKind::kSat)
-    return place;
+  if (shape.shape_kind() != ShapeKind::kBox) return place;
   // The box's own axis: the normal of its face to the right.
   const Vec<S> axis = body.rotation().apply(convex.normals[1]);
   place.c = axis.x();
   place.s = axis.y();
   place.half_width = shape.half_width;
   place.half_height = shape.half_height;
-  place.box = S(1);
+  place.box = world.settings.narrow_phase == NarrowPhaseKind::kSat ? S(1) : S(0);
   return place;
 }
 
@@ -45,16 +43,7 @@ void refresh_places(WorldData<S>& world, std::uint32_t slot) {
     world.places[p] = place_of(world, body, world.motions[slot], p);
 }
 
-template <class S>
-void refresh_awake_places(WorldData<S>& world) {
-  for (std::uint32_t slot : world.awake) refresh_places(world, slot);
-}
-
-#define URTO_INSTANTIATE(S)                                   \
-  template void refresh_places(WorldData<S>&, std::uint32_t); \
-  template void refresh_awake_places(WorldData<S>&);
-URTO_INSTANTIATE(float)
-URTO_INSTANTIATE(double)
-#undef URTO_INSTANTIATE
+template void refresh_places(WorldData<float>&, std::uint32_t);
+template void refresh_places(WorldData<double>&, std::uint32_t);
 
 }  // namespace urto

@@ -6,11 +6,11 @@
 
 namespace urto {
 
-// A shape as the narrow phase sees it in one step: one cache line (two in double), read by rows of four.
+// A shape as the narrow phase sees it in the coming step: one cache line (two in double), read by rows of four.
 template <class S>
 struct alignas(16 * sizeof(S)) Place {
   S x = 0, y = 0;                     // m, the shape's centroid, world frame
-  S c = 1, s = 0;                     // of a box's own x axis, world frame
+  S c = 1, s = 0;                     // of a sharp box's own x axis, world frame
   S half_width = 0, half_height = 0;  // m, of a box
   S offset_x = 0, offset_y = 0;       // m, from the body's centre of mass to the centroid, world axes
   S reach = 0;                        // m, speculative distance
@@ -24,12 +24,8 @@ struct alignas(16 * sizeof(S)) Place {
 template <class S>
 struct WorldData;
 
-// Sets the places of a body's shapes as the body is now.
+// Sets the places of a body's shapes as the body is and moves now. Whoever changes either between steps asks for it.
 template <class S>
 void refresh_places(WorldData<S>& world, std::uint32_t slot);
-
-// Those of all awake bodies.
-template <class S>
-void refresh_awake_places(WorldData<S>& world);
 
 }  // namespace urto

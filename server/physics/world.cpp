@@ -207,6 +207,7 @@ Status WorldOf<S>::apply_impulse(BodyId id, const Vec2& impulse, const Vec2& poi
   m.vy += b.inv_mass * p.y();
   m.w += b.inv_inertia * cross<S>(r, p);
   saturate(m);
+  refresh_places(data_, slot);
   return {};
 }
 
@@ -219,6 +220,7 @@ Status WorldOf<S>::apply_impulse_to_center(BodyId id, const Vec2& impulse) {
   data_.motions[slot].vx += data_.bodies[slot].inv_mass * S(impulse.x());
   data_.motions[slot].vy += data_.bodies[slot].inv_mass * S(impulse.y());
   saturate(data_.motions[slot]);
+  refresh_places(data_, slot);
   return {};
 }
 
@@ -230,6 +232,7 @@ Status WorldOf<S>::apply_angular_impulse(BodyId id, double impulse) {
   wake_body(data_, slot);
   data_.motions[slot].w += data_.bodies[slot].inv_inertia * S(impulse);
   saturate(data_.motions[slot]);
+  refresh_places(data_, slot);
   return {};
 }
 
@@ -269,6 +272,7 @@ Status WorldOf<S>::set_velocity(BodyId id, const Vec2& velocity, double angular_
   m.vx = S(velocity.x());
   m.vy = S(velocity.y());
   m.w = b.flags & kBodyFixedRotation ? S(0) : S(angular_velocity);
+  refresh_places(data_, slot);
   return {};
 }
 

@@ -8,6 +8,7 @@ namespace urto {
 
 template <class S>
 void BruteForce<S>::insert(Proxy proxy, const Aabb<S>& bounds, bool still) {
+  this->note_new(proxy, bounds);
   const std::size_t block = proxy / 4;
   if (block >= blocks_.size()) {
     blocks_.resize(block + 1);
@@ -26,6 +27,7 @@ void BruteForce<S>::remove(Proxy proxy) {
 
 template <class S>
 void BruteForce<S>::move(Proxy proxy, const Aabb<S>& bounds) {
+  this->note(proxy, bounds);
   blocks_[proxy / 4].set(static_cast<int>(proxy % 4), bounds);
 }
 

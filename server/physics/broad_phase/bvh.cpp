@@ -8,13 +8,14 @@ namespace urto {
 namespace {
 
 // Finds the overlapping pairs, of which one is marked, within a tree or between two.
-template <class S>
+template <class S, class Wanted>
 class TreeJoin {
  public:
   using Tree = PackedTree<S>;
   using Node = Box4<S>;
 
-  TreeJoin(const Tree& a, const Tree& b, PairSorter& pairs) : a_(a), b_(b), pairs_(pairs) {}
+  TreeJoin(const Tree& a, const Tree& b, const Wanted& wanted, PairSorter& pairs)
+      : a_(a), b_(b), wanted_(wanted), pairs_(pairs) {}
 
   // Pairs under one node of tree a.
   void within(std::uint32_t level, std::uint32_t index) {
@@ -26,7 +27,7 @@ class TreeJoin {
       for (std::uint32_t hits = boxes.overlap_mask(boxes, i) & later & wanted; hits != 0; hits &= hits - 1) {
         const int j = std::countr_zero(hits);
         if (level == 0) {
-          pairs_.add(a_.proxy(index, i), a_.proxy(index, j));
+          add(a_.proxy(index, i), a_.proxy(index, j));
         } else {
           between({level - 1, child(index, i), boxes.get(i)}, {level - 1, child(index, j), boxes.get(j)});
         }
@@ -47,6 +48,10 @@ class TreeJoin {
     Aabb<S> bounds;
   };
 
+  void add(Proxy x, Proxy y) {
+    if (wanted_(x, y)) pairs_.add(x, y);
+  }
+
   static std::uint32_t child(std::uint32_t index, int lane) { return index * 4 + static_cast<std::uint32_t>(lane); }
 
   // Pairs under node x of tree a and node y of tree b, of which one holds a mark.
@@ -64,7 +69,7 @@ class TreeJoin {
       for (std::uint32_t hits = boxes_y.overlap_mask(boxes_x, i) & wanted; hits != 0; hits &= hits - 1) {
         const int j = std::countr_zero(hits);
         if (x.level == 0) {
-          pairs_.add(a_.proxy(x.index, i), b_.proxy(y.index, j));
+          add(a_.proxy(x.index, i), b_.proxy(y.index, j));
         } else {
           between({x.level - 1, child(x.index, i), boxes_x.get(i)}, {y.level - 1, child(y.index, j), boxes_y.get(j)});
         }
@@ -86,6 +91,7 @@ class TreeJoin {
 
   const Tree& a_;
   const Tree& b_;
+  const Wanted& wanted_;
   PairSorter& pairs_;
 };
 
@@ -95,6 +101,7 @@ template <class S>
 void Bvh<S>::insert(Proxy proxy, const Aabb<S>& bounds, bool still) {
   if (proxy >= still_.size()) still_.resize(proxy + 1, 0);
   still_[proxy] = still ? 1 : 0;
+  this->note_new(proxy, bounds);
   tree_of(proxy).insert(proxy, bounds);
 }
 
@@ -105,6 +112,7 @@ void Bvh<S>::remove(Proxy proxy) {
 
 template <class S>
 void Bvh<S>::move(Proxy proxy, const Aabb<S>& bounds) {
+  this->note(proxy, bounds);
   tree_of(proxy).move(proxy, bounds);
 }
 
@@ -116,6 +124,20 @@ void Bvh<S>::refresh() const {
 
 template <class S>
 void Bvh<S>::find_pairs(std::span<const Proxy> moved, std::vector<std::pair<Proxy, Proxy>>& pairs) const {
+  join(moved, [](Proxy, Proxy) { return true; });
+  sorter_.sort_into(static_cast<std::uint32_t>(still_.size()), pairs);
+}
+
+template <class S>
+void Bvh<S>::find_new_pairs(std::span<const Proxy> moved, std::vector<std::pair<Proxy, Proxy>>& pairs) {
+  join(moved, [this](Proxy a, Proxy b) { return !this->knows(a, b); });
+  sorter_.sort_into(static_cast<std::uint32_t>(still_.size()), pairs);
+  this->settle(moved);
+}
+
+template <class S>
+template <class Wanted>
+void Bvh<S>::join(std::span<const Proxy> moved, const Wanted& wanted) const {
   refresh();
   std::size_t moved_count = 0;  // of the moving tree
   for (const Proxy proxy : moved) moved_count += still_[proxy] == 0 ? 1 : 0;
@@ -126,14 +148,13 @@ void Bvh<S>::find_pairs(std::span<const Proxy> moved, std::vector<std::pair<Prox
   }
   sorter_.clear();
   if (!moving_tree_.empty()) {
-    TreeJoin<S>(moving_tree_, moving_tree_, sorter_).within(moving_tree_.top_level(), 0);
-    if (!still_tree_.empty()) TreeJoin<S>(moving_tree_, still_tree_, sorter_).all_between();
+    TreeJoin<S, Wanted>(moving_tree_, moving_tree_, wanted, sorter_).within(moving_tree_.top_level(), 0);
+    if (!still_tree_.empty()) TreeJoin<S, Wanted>(moving_tree_, still_tree_, wanted, sorter_).all_between();
   }
   if (all_moved) moving_tree_.unmark_all();
   for (const Proxy proxy : moved) {
     if (!all_moved || still_[proxy] != 0) tree_of(proxy).unmark(proxy);
   }
-  sorter_.sort_into(static_cast<std::uint32_t>(still_.size()), pairs);
 }
 
 template <class S>

@@ -23,12 +23,16 @@ class Bvh final : public BroadPhase<S> {
   void remove(Proxy proxy) override;
   void move(Proxy proxy, const Aabb<S>& bounds) override;
   void find_pairs(std::span<const Proxy> moved, std::vector<std::pair<Proxy, Proxy>>& pairs) const override;
+  void find_new_pairs(std::span<const Proxy> moved, std::vector<std::pair<Proxy, Proxy>>& pairs) override;
   void query(const Aabb<S>& box, std::vector<Proxy>& out) const override;
   void query_segment(const Vec<S>& origin, const Vec<S>& translation, std::vector<Proxy>& out) const override;
 
  private:
   PackedTree<S>& tree_of(Proxy proxy) const { return still_[proxy] != 0 ? still_tree_ : moving_tree_; }
   void refresh() const;
+  // Hands overlapping pairs to the sorter, of which one has moved and which `wanted` lets pass.
+  template <class Wanted>
+  void join(std::span<const Proxy> moved, const Wanted& wanted) const;
 
   std::vector<std::uint8_t> still_;  // by proxy
   // Caches of the bounds; see above.

@@ -63,6 +63,7 @@ typename Quadtree<S>::Node Quadtree<S>::child_of(Index parent, int quadrant) con
 
 template <class S>
 void Quadtree<S>::insert(Proxy proxy, const Aabb<S>& bounds, bool still) {
+  this->note_new(proxy, bounds);
   if (proxy >= entries_.size()) entries_.resize(proxy + 1);
   entries_[proxy] = Entry{};
   entries_[proxy].bounds = bounds;
@@ -77,6 +78,7 @@ void Quadtree<S>::remove(Proxy proxy) {
 
 template <class S>
 void Quadtree<S>::move(Proxy proxy, const Aabb<S>& bounds) {
+  this->note(proxy, bounds);
   Entry& entry = entries_[proxy];
   const Node& node = nodes_[entry.node];
   // It stays where it is as long as place() would put it there.

@@ -200,6 +200,48 @@ TYPED_TEST(BroadPhaseTest, StructuresAgreeOnRandomOperations) {
   }
 }
 
+// What overlaps now and did not when new pairs were last sought, and nothing that does not overlap.
+TYPED_TEST(BroadPhaseTest, NewPairsAreThoseThatHaveJustMet) {
+  using S = TypeParam;
+  constexpr unsigned kSeed = 8;
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  for (BroadPhaseKind kind : {BroadPhaseKind::kBruteForce, BroadPhaseKind::kQuadtree, BroadPhaseKind::kBvh}) {
+    RandomBoxes<S> boxes(kSeed);
+    const auto structure = BroadPhase<S>::create(kind);
+    std::vector<Proxy> all;
+    for (Proxy proxy = 0; proxy < 120; ++proxy) {
+      structure->insert(proxy, boxes.next(), proxy % 9 == 0);
+      all.push_back(proxy);
+    }
+    Pairs before, now, met;
+    structure->find_new_pairs(all, met);
+    structure->find_pairs(all, before);
+    EXPECT_EQ(met, before) << "of new proxies all pairs are new";
+    std::size_t met_in_all = 0;
+    for (int round = 0; round < 30; ++round) {
+      std::vector<Proxy> moved;
+      for (Proxy proxy : all) {
+        if (!boxes.chance(0.3)) continue;
+        structure->move(proxy, boxes.next());
+        moved.push_back(proxy);
+      }
+      structure->find_pairs(all, now);
+      structure->find_new_pairs(moved, met);
+      Pairs expected;
+      std::set_difference(now.begin(), now.end(), before.begin(), before.end(), std::back_inserter(expected));
+      ASSERT_EQ(met, expected) << "round " << round;
+      met_in_all += met.size();
+      before = now;
+    }
+    EXPECT_GT(met_in_all, 100u);
+    structure->forget(all[1]);
+    structure->find_new_pairs(std::vector<Proxy>{all[1]}, met);
+    const auto with_it = std::count_if(before.begin(), before.end(),
+                                       [&](const auto& pair) { return pair.first == all[1] || pair.second == all[1]; });
+    EXPECT_EQ(static_cast<std::ptrdiff_t>(met.size()), with_it) << "a forgotten proxy meets all of its neighbours anew";
+  }
+}
+
 TYPED_TEST(BroadPhaseTest, DriftingCrowdStaysRight) {
   // Boxes that wander a little each round: the case of refitted trees that grow loose.
   constexpr unsigned kSeed = 5;
