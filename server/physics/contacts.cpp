@@ -6,6 +6,7 @@
 #include "physics/contact_graph.h"
 #include "physics/narrow_phase/box_kernels.h"
 #include "physics/narrow_phase/manifold.h"
+#include "physics/narrow_phase/polygon_kernels.h"
 #include "physics/solver/contact_kernels.h"
 
 namespace urto {
@@ -49,12 +50,60 @@ void write_manifold(const WorldManifold<S>& m, std::uint32_t lane, ManifoldLanes
 }
 
 template <class S>
+void collide_side_by_side(const WorldData<S>& world, PairKind kind, const std::uint32_t* a, const std::uint32_t* b,
+                          ManifoldLanes<S>& out) {
+  if (kind == PairKind::kBoxes) {
+    box_kernels<S>().collide(world.places.data(), a, b, out);
+  } else {
+    polygon_kernels<S>().collide(world.places.data(), world.convexes.data(), a, b, out);
+  }
+}
+
+// Bit mask of the lanes that a kernel left to the general routine.
+template <class S>
+std::uint32_t asking_lanes(const ManifoldLanes<S>& manifolds) {
+  std::uint32_t asking = 0;
+  for (std::uint32_t lane = 0; lane < static_cast<std::uint32_t>(kLanes<S>); ++lane)
+    asking |= static_cast<std::uint32_t>(manifolds.count[lane] == S(kAskGeneral)) << lane;
+  return asking;
+}
+
+template <class S>
+void copy_lanes(const ManifoldLanes<S>& from, std::uint32_t lanes, ManifoldLanes<S>& to) {
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const auto lane = static_cast<std::uint32_t>(__builtin_ctz(lanes));
+    const auto copy = [lane](const auto& source, auto& target) { target[lane] = source[lane]; };
+    copy(from.nx, to.nx);
+    copy(from.ny, to.ny);
+    copy(from.between_x, to.between_x);
+    copy(from.between_y, to.between_y);
+    copy(from.count, to.count);
+    for (int i = 0; i < 2; ++i) {
+      copy(from.x[i], to.x[i]);
+      copy(from.y[i], to.y[i]);
+      copy(from.separation[i], to.separation[i]);
+      copy(from.id[i], to.id[i]);
+    }
+  }
+}
+
+template <class S>
 void collide_lanes(const WorldData<S>& world, const ContactBlock<S>& block, const ContactBlockRest<S>& rest,
                    ManifoldLanes<S>& out) {
-  if (rest.boxes != 0) box_kernels<S>().collide(world.places.data(), rest.shape_a, rest.shape_b, out);
-  const std::uint32_t used = block.count < 32 ? (1u << block.count) - 1 : ~0u;
-  for (std::uint32_t others = used & ~rest.boxes; others != 0; others &= others - 1) {
-    const auto lane = static_cast<std::uint32_t>(__builtin_ctz(others));
+  const std::uint32_t used = (1u << block.count) - 1;
+  std::uint32_t general = used & ~(rest.boxes | rest.polygons);
+  if (rest.polygons != 0) {
+    collide_side_by_side(world, PairKind::kPolygons, rest.shape_a, rest.shape_b, out);
+    general |= rest.polygons & asking_lanes(out);
+  }
+  if (rest.boxes != 0) {
+    ManifoldLanes<S> boxes;
+    const bool alone = rest.polygons == 0;
+    collide_side_by_side(world, PairKind::kBoxes, rest.shape_a, rest.shape_b, alone ? out : boxes);
+    if (!alone) copy_lanes(boxes, rest.boxes, out);
+  }
+  for (; general != 0; general &= general - 1) {
+    const auto lane = static_cast<std::uint32_t>(__builtin_ctz(general));
     const Proxy a = rest.shape_a[lane], b = rest.shape_b[lane];
     write_manifold(manifold_of(world, a, b, reach_of(world.places[a], world.places[b])), lane, out);
   }
@@ -151,7 +200,8 @@ class ActiveContacts {
     world_.scratch.parted.clear();
     world_.scratch.met.clear();
     for (std::size_t i = 0; i < world_.active.size(); ++i) look_at(world_.active[i]);
-    flush_boxes();
+    flush(boxes_);
+    flush(polygons_);
     for (std::uint32_t slot : world_.scratch.parted) destroy_contact(world_, slot);
     wake_and_insert();
   }
@@ -160,31 +210,39 @@ class ActiveContacts {
   void look_at(const ActiveContact& active) {
     if (!world_.shapes[active.shape_a].fat.overlaps(world_.shapes[active.shape_b].fat)) {
       world_.scratch.parted.push_back(active.contact);
-    } else if (lanes_ && world_.places[active.shape_a].box > S(0) && world_.places[active.shape_b].box > S(0) &&
-               !active.sensor) {
-      add_boxes(active);
-    } else {
-      update_one(world_.contacts[active.contact], active.contact);
+      return;
     }
+    const PairKind kind = pair_kind(world_.places[active.shape_a], world_.places[active.shape_b]);
+    if (!lanes_ || active.sensor || kind == PairKind::kGeneral) return update_one(active.contact);
+    add(active, kind == PairKind::kBoxes ? boxes_ : polygons_);
   }
 
-  // Plain boxes are looked at side by side.
-  void add_boxes(const ActiveContact& active) {
-    batch_.a[batch_.count] = active.shape_a;
-    batch_.b[batch_.count] = active.shape_b;
-    batch_.contact[batch_.count] = active.contact;
-    if (++batch_.count == static_cast<std::uint32_t>(kLanes<S>)) flush_boxes();
+  // What a kernel may take is looked at side by side.
+  struct Batch {
+    PairKind kind;
+    std::uint32_t count = 0;
+    std::uint32_t a[kLanes<S>] = {}, b[kLanes<S>] = {}, contact[kLanes<S>] = {};
+  };
+
+  void add(const ActiveContact& active, Batch& batch) {
+    batch.a[batch.count] = active.shape_a;
+    batch.b[batch.count] = active.shape_b;
+    batch.contact[batch.count] = active.contact;
+    if (++batch.count == static_cast<std::uint32_t>(kLanes<S>)) flush(batch);
   }
 
-  void flush_boxes() {
-    if (batch_.count == 0) return;
-    box_kernels<S>().collide(world_.places.data(), batch_.a, batch_.b, batch_.manifolds);
-    for (std::uint32_t lane = 0; lane < batch_.count; ++lane)
-      if (batch_.manifolds.count[lane] > S(0)) met(batch_.contact[lane]);
-    batch_.count = 0;
+  void flush(Batch& batch) {
+    if (batch.count == 0) return;
+    collide_side_by_side(world_, batch.kind, batch.a, batch.b, manifolds_);
+    for (std::uint32_t lane = 0; lane < batch.count; ++lane) {
+      if (manifolds_.count[lane] > S(0)) met(batch.contact[lane]);
+      if (manifolds_.count[lane] == S(kAskGeneral)) update_one(batch.contact[lane]);
+    }
+    batch.count = 0;
   }
 
-  void update_one(Contact<S>& c, std::uint32_t slot) {
+  void update_one(std::uint32_t slot) {
+    Contact<S>& c = world_.contacts[slot];
     if (world_.settings.solver == SolverKind::kThesis && !c.sensor())
       return;  // it looks for itself, in every sub-iteration
     update_manifold(world_, c);
@@ -208,15 +266,10 @@ class ActiveContacts {
     }
   }
 
-  struct Batch {
-    std::uint32_t a[kLanes<S>] = {}, b[kLanes<S>] = {}, contact[kLanes<S>] = {};
-    std::uint32_t count = 0;
-    ManifoldLanes<S> manifolds{};
-  };
-
   WorldData<S>& world_;
   const bool lanes_;
-  Batch batch_;
+  Batch boxes_{PairKind::kBoxes}, polygons_{PairKind::kPolygons};
+  ManifoldLanes<S> manifolds_{};
 };
 
 // Events ---------------------------------------------------------------------------------------------------------

@@ -22,14 +22,23 @@ Place<S> place_of(const WorldData<S>& world, const Body<S>& body, const Motion<S
   if (body.dynamic()) place.turn = absolute(motion.w) * body.extent_max * time_step;
   place.way_x = motion.vx * time_step;
   place.way_y = motion.vy * time_step;
+  place.c = body.c;
+  place.s = body.s;
+  const bool simd = world.settings.narrow_phase == NarrowPhaseKind::kSat && convex.radius == S(0);
+  if (shape.shape_kind() == ShapeKind::kPolygon && simd) place.vertices = S(convex.count);
   if (shape.shape_kind() != ShapeKind::kBox) return place;
   // The box's own axis: the normal of its face to the right.
-  const Vec<S> axis = body.rotation().apply(convex.normals[1]);
-  place.c = axis.x();
-  place.s = axis.y();
+  const Vec<S>& right = convex.normals[1];
+  const bool upright = right.x() == S(1) && right.y() == S(0);
+  if (!upright) {
+    const Vec<S> axis = body.rotation().apply(right);
+    place.c = axis.x();
+    place.s = axis.y();
+  }
   place.half_width = shape.half_width;
   place.half_height = shape.half_height;
-  place.box = world.settings.narrow_phase == NarrowPhaseKind::kSat ? S(1) : S(0);
+  place.box = simd ? S(1) : S(0);
+  if (upright && simd) place.vertices = S(4);
   return place;
 }
 

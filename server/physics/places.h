@@ -10,16 +10,25 @@ namespace urto {
 template <class S>
 struct alignas(16 * sizeof(S)) Place {
   S x = 0, y = 0;                     // m, the shape's centroid, world frame
-  S c = 1, s = 0;                     // of a sharp box's own x axis, world frame
+  S c = 1, s = 0;                     // of a box's own x axis, of any other shape's body, world frame
   S half_width = 0, half_height = 0;  // m, of a box
   S offset_x = 0, offset_y = 0;       // m, from the body's centre of mass to the centroid, world axes
   S reach = 0;                        // m, speculative distance
   S bound = 0;                        // m, no more than this is added to it for the way the shapes close in
   S turn = 0;                         // m, how far the body's farthest point turns in a step
-  S box = 0;                          // 1: a plain box, which box_kernels.h may take; 0: any other shape
+  S box = 0;                          // 1: a sharp box, which box_kernels.h may take; 0: any other shape
   S way_x = 0, way_y = 0;             // m, how far the body comes in a step at its velocity
-  S unused_1 = 0, unused_2 = 0;       // no padding
+  S vertices = 0;                     // of a sharp polygon whose axes are its body's (polygon_kernels.h); else 0
+  S unused = 0;                       // no padding
 };
+
+// Who finds out where a pair touches: a kernel that looks at many side by side, or the general routine.
+enum class PairKind { kGeneral, kBoxes, kPolygons };
+template <class S>
+PairKind pair_kind(const Place<S>& a, const Place<S>& b) {
+  if (a.box > S(0) && b.box > S(0)) return PairKind::kBoxes;
+  return a.vertices > S(0) && b.vertices > S(0) ? PairKind::kPolygons : PairKind::kGeneral;
+}
 
 template <class S>
 struct WorldData;

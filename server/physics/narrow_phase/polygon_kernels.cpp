@@ -1,0 +1,301 @@
+// Highway compiles this file once for each instruction set. Our own headers come first: what is first seen from within
+// a system header is left out of the dependencies that the compiler writes.
+#include "physics/narrow_phase/polygon_kernels.h"
+
+#include "physics/constants.h"
+#include "physics/narrow_phase/manifold.h"
+#include "physics/simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "physics/narrow_phase/polygon_kernels.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h:
+#include <hwy/highway.h>
+
+#include "physics/simd/rows-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace urto {
+namespace HWY_NAMESPACE {
+namespace {
+
+template <class S>
+struct Pair {
+  Vector<S> x, y;
+};
+
+template <class S>
+HWY_INLINE Vector<S> dot(Pair<S> a, Pair<S> b) {
+  return hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y));
+}
+template <class S>
+HWY_INLINE Pair<S> minus(Pair<S> a, Pair<S> b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y)};
+}
+template <class S>
+HWY_INLINE Pair<S> choose(Mask<S> condition, Pair<S> yes, Pair<S> no) {
+  return {hn::IfThenElse(condition, yes.x, no.x), hn::IfThenElse(condition, yes.y, no.y)};
+}
+template <class S>
+HWY_INLINE Pair<S> rotated(Pair<S> q, Pair<S> v) {
+  return {hn::Sub(hn::Mul(q.x, v.x), hn::Mul(q.y, v.y)), hn::Add(hn::Mul(q.y, v.x), hn::Mul(q.x, v.y))};
+}
+template <class S>
+HWY_INLINE Pair<S> rotated_back(Pair<S> q, Pair<S> v) {
+  return {hn::Add(hn::Mul(q.x, v.x), hn::Mul(q.y, v.y)), hn::Sub(hn::Mul(q.x, v.y), hn::Mul(q.y, v.x))};
+}
+
+constexpr int kMost = static_cast<int>(kPolygonVerticesMax);
+
+// The outlines of a few lanes' polygons. Lanes with fewer vertices than the most of them end in copies of their last
+// vertex and in faces that no direction prefers.
+template <class S>
+struct Outlines {
+  Pair<S> vertices[kMost + 1];  // ccw; the first again behind the last
+  Pair<S> normals[kMost];
+  Vector<S> count;
+  int most;
+
+  HWY_INLINE Outlines(const Convex<S>* convexes, const std::uint32_t* proxies, Vector<S> counts, int most_vertices)
+      : count(counts), most(most_vertices) {
+    const auto c = load_rows<S>([&](std::size_t i) { return &convexes[proxies[i]].centroid.x(); });
+    const Pair<S> centroid{c.c0, c.c1};
+    int k = 0;
+    do {
+      const auto v = load_rows<S>([&](std::size_t i) { return &convexes[proxies[i]].vertices[k].x(); });
+      const auto n = load_rows<S>([&](std::size_t i) { return &convexes[proxies[i]].normals[k].x(); });
+      vertices[k] = minus<S>({v.c0, v.c1}, centroid);
+      normals[k] = {n.c0, n.c1};
+      vertices[k + 1] = minus<S>({v.c2, v.c3}, centroid);
+      normals[k + 1] = {n.c2, n.c3};
+      k += 2;
+    } while (k < most);
+    for (k = 1; k < most; ++k) {
+      const auto there = has(k);
+      vertices[k] = choose<S>(there, vertices[k], vertices[0]);
+      normals[k] = choose<S>(there, normals[k], normals[0]);
+    }
+    vertices[most] = vertices[0];
+  }
+  HWY_INLINE Mask<S> has(int k) const { return hn::Gt(count, set(S(k))); }
+
+  HWY_INLINE void place(Pair<S> q, Pair<S> center) {
+    int k = 0;
+    do {
+      const Pair<S> v = rotated<S>(q, vertices[k]);
+      vertices[k] = {hn::Add(v.x, center.x), hn::Add(v.y, center.y)};
+      normals[k] = rotated<S>(q, normals[k]);
+    } while (++k < most);
+    vertices[most] = vertices[0];
+  }
+};
+
+// The face of a against which b is separated most. Copies of the first vertex at the end of a short outline change
+// nothing: their faces repeat the first one's.
+template <class S>
+struct BestFace {
+  Pair<S> normal, start, end;
+  Vector<S> separation, index;
+
+  HWY_INLINE BestFace(const Outlines<S>& a, const Outlines<S>& b) {
+    for (int i = 0; i < a.most; ++i) {
+      auto least = dot<S>(a.normals[i], b.vertices[0]);
+      for (int j = 1; j < b.most; ++j) least = smaller(least, dot<S>(a.normals[i], b.vertices[j]));
+      const auto s = hn::Sub(least, dot<S>(a.normals[i], a.vertices[i]));
+      if (i == 0) {
+        normal = a.normals[0];
+        start = a.vertices[0];
+        end = a.vertices[1];
+        separation = s;
+        index = hn::Zero(Tag<S>());
+        continue;
+      }
+      const auto better = hn::And(a.has(i), hn::Gt(s, separation));
+      normal = choose<S>(better, a.normals[i], normal);
+      start = choose<S>(better, a.vertices[i], start);
+      end = choose<S>(better, a.vertices[i + 1], end);
+      separation = hn::IfThenElse(better, s, separation);
+      index = hn::IfThenElse(better, set(S(i)), index);
+    }
+  }
+};
+
+// The edge that looks most against a direction.
+template <class S>
+struct IncidentEdge {
+  Pair<S> p, q;
+  Vector<S> p_index, q_index;
+
+  HWY_INLINE IncidentEdge(const Outlines<S>& a, const Outlines<S>& b, Mask<S> of_a, Pair<S> direction) {
+    const int most = a.most > b.most ? a.most : b.most;
+    const auto count = hn::IfThenElse(of_a, a.count, b.count);
+    const auto pick = [&](int k) HWY_ATTR -> Pair<S> {
+      return choose<S>(of_a, a.vertices[k < a.most ? k : a.most], b.vertices[k < b.most ? k : b.most]);
+    };
+    const auto first = dot<S>(choose<S>(of_a, a.normals[0], b.normals[0]), direction);
+    auto least = first;
+    p = pick(0);
+    q = pick(1);
+    p_index = hn::Zero(Tag<S>());
+    for (int k = 1; k < most; ++k) {
+      const Pair<S> normal = choose<S>(of_a, a.normals[k < a.most ? k : 0], b.normals[k < b.most ? k : 0]);
+      const auto d = dot<S>(normal, direction);
+      const auto less = hn::And(hn::Gt(count, set(S(k))), hn::Lt(d, least));
+      least = hn::IfThenElse(less, d, least);
+      p = choose<S>(less, pick(k), p);
+      q = choose<S>(less, pick(k + 1), q);
+      p_index = hn::IfThenElse(less, set(S(k)), p_index);
+    }
+    const auto next = hn::Add(p_index, set(S(1)));
+    q_index = hn::IfThenElse(hn::Lt(next, count), next, hn::Zero(Tag<S>()));
+  }
+};
+
+template <class S>
+struct PlaceLanes {
+  Pair<S> center, axis, offset, way;
+  Vector<S> reach, bound, turn, vertices;
+
+  HWY_INLINE PlaceLanes(const Place<S>* places, const std::uint32_t* proxies) {
+    const auto m0 = load_rows<S>([&](std::size_t i) { return &places[proxies[i]].x; });
+    const auto m1 = load_rows<S>([&](std::size_t i) { return &places[proxies[i]].half_width; });
+    const auto m2 = load_rows<S>([&](std::size_t i) { return &places[proxies[i]].reach; });
+    const auto m3 = load_rows<S>([&](std::size_t i) { return &places[proxies[i]].way_x; });
+    center = {m0.c0, m0.c1};
+    axis = {m0.c2, m0.c3};
+    offset = {m1.c2, m1.c3};
+    reach = m2.c0;
+    bound = m2.c1;
+    turn = m2.c2;
+    way = {m3.c0, m3.c1};
+    vertices = m3.c2;
+  }
+};
+
+template <class S>
+HWY_INLINE Vector<S> reach_of(const PlaceLanes<S>& a, const PlaceLanes<S>& b) {
+  const Pair<S> w = minus<S>(b.way, a.way);
+  const auto way = hn::Add(hn::Sqrt(dot<S>(w, w)), hn::Add(a.turn, b.turn));
+  return hn::Add(smaller(a.reach, b.reach), smaller(way, smaller(a.bound, b.bound)));
+}
+
+template <class S>
+HWY_INLINE int most_of(Vector<S> counts) {
+  HWY_ALIGN S lanes[kLanes<S>];
+  store(counts, lanes);
+  S most = S(3);
+  for (std::size_t i = 0; i < hn::Lanes(Tag<S>()); ++i) most = lanes[i] > most ? lanes[i] : most;
+  return static_cast<int>(most);
+}
+
+template <class S>
+HWY_INLINE void collide_vector(const Place<S>* places, const Convex<S>* convexes, const std::uint32_t* proxies_a,
+                               const std::uint32_t* proxies_b, std::size_t lane, ManifoldLanes<S>& out) {
+  const auto zero = hn::Zero(Tag<S>()), one = set(S(1)), half_of = set(S(0.5));
+  store(zero, out.count + lane);
+  const PlaceLanes<S> a(places, proxies_a + lane), b(places, proxies_b + lane);
+  const auto reach = reach_of(a, b);
+  const Pair<S> between = minus<S>(b.center, a.center);
+  // Everything in a's axes, from a's centroid.
+  const Outlines<S> outline_a(convexes, proxies_a + lane, a.vertices, most_of<S>(a.vertices));
+  Outlines<S> outline_b(convexes, proxies_b + lane, b.vertices, most_of<S>(b.vertices));
+  outline_b.place(rotated_back<S>(a.axis, b.axis), rotated_back<S>(a.axis, between));
+  const BestFace<S> fa(outline_a, outline_b), fb(outline_b, outline_a);
+  const auto near = hn::And(hn::Le(fa.separation, reach), hn::Le(fb.separation, reach));
+  if (hn::AllFalse(Tag<S>(), near)) return;
+  const auto flip = hn::Gt(fb.separation, hn::Add(fa.separation, set(S(kFacePreference))));
+  const Pair<S> normal = choose<S>(flip, fb.normal, fa.normal);
+  const Pair<S> v1 = choose<S>(flip, fb.start, fa.start), v2 = choose<S>(flip, fb.end, fa.end);
+  const IncidentEdge<S> edge(outline_a, outline_b, flip, normal);
+
+  // Clipping, as in manifold.cpp.
+  const Pair<S> tangent{hn::Neg(normal.y), normal.x};
+  const auto length = dot<S>(tangent, minus<S>(v2, v1));
+  const auto tp = dot<S>(tangent, minus<S>(edge.p, v1)), tq = dot<S>(tangent, minus<S>(edge.q, v1));
+  const auto beside = hn::Or(hn::Lt(tp, zero), hn::Gt(tq, length));
+  const Pair<S> d = minus<S>(edge.q, edge.p);
+  const auto span = hn::Sub(tp, tq);
+  const auto spans = hn::Gt(span, zero);
+  const auto share = hn::Div(one, hn::IfThenElse(spans, span, one));
+  const auto along = [&](Vector<S> part) HWY_ATTR -> Pair<S> {
+    return {hn::Add(edge.p.x, hn::Mul(d.x, part)), hn::Add(edge.p.y, hn::Mul(d.y, part))};
+  };
+  const Pair<S> p = choose<S>(hn::And(spans, hn::Gt(tp, length)), along(hn::Mul(hn::Sub(tp, length), share)), edge.p);
+  const Pair<S> q = choose<S>(hn::And(spans, hn::Lt(tq, zero)), along(hn::Mul(tp, share)), edge.q);
+  const auto sp = dot<S>(normal, minus<S>(p, v1)), sq = dot<S>(normal, minus<S>(q, v1));
+  const auto clipped = hn::AndNot(beside, near);
+  const auto keep_p = hn::And(clipped, hn::Le(sp, reach)), keep_q = hn::And(clipped, hn::Le(sq, reach));
+  const auto any = hn::Or(keep_p, keep_q), both = hn::And(keep_p, keep_q);
+
+  const auto seam = hn::Mul(set(S(kSeamFraction)), smaller(reach, set(S(kSpeculativeDistanceMax))));
+  const auto patch = hn::Abs(dot<S>(tangent, minus<S>(q, p)));
+  const auto at_seam = hn::And(both, hn::And(hn::Lt(patch, seam), hn::Gt(sp, hn::Neg(seam))));
+  const auto apart = hn::Gt(larger(fa.separation, fb.separation), zero);
+  const auto ask = hn::Or(at_seam, hn::AndNot(any, hn::And(near, apart)));
+
+  // Midway between the surfaces, in world axes, from a's centre of mass.
+  const auto point = [&](Pair<S> at, Vector<S> s) HWY_ATTR -> Pair<S> {
+    const auto back = hn::Mul(half_of, s);
+    const Pair<S> mid{hn::Sub(at.x, hn::Mul(normal.x, back)), hn::Sub(at.y, hn::Mul(normal.y, back))};
+    const Pair<S> world = rotated<S>(a.axis, mid);
+    return {hn::Add(a.offset.x, world.x), hn::Add(a.offset.y, world.y)};
+  };
+  const auto s1 = hn::IfThenElse(keep_p, sp, sq);
+  const Pair<S> first = point(choose<S>(keep_p, p, q), s1), second = point(q, sq);
+  const Pair<S> up = rotated<S>(a.axis, normal);
+  const auto index = hn::IfThenElse(flip, fb.index, fa.index);
+  const auto side = hn::Add(hn::IfThenElseZero(flip, set(S(ManifoldIds::kFlip))), hn::Mul(index, set(S(256))));
+  const auto p_id = hn::Add(side, edge.p_index), q_id = hn::Add(side, edge.q_index);
+  store(hn::IfThenElse(flip, hn::Neg(up.x), up.x), out.nx + lane);
+  store(hn::IfThenElse(flip, hn::Neg(up.y), up.y), out.ny + lane);
+  store(hn::Sub(hn::Add(between.x, a.offset.x), b.offset.x), out.between_x + lane);
+  store(hn::Sub(hn::Add(between.y, a.offset.y), b.offset.y), out.between_y + lane);
+  store(first.x, out.x[0] + lane);
+  store(first.y, out.y[0] + lane);
+  store(second.x, out.x[1] + lane);
+  store(second.y, out.y[1] + lane);
+  store(s1, out.separation[0] + lane);
+  store(sq, out.separation[1] + lane);
+  store(hn::IfThenElse(keep_p, p_id, q_id), out.id[0] + lane);
+  store(q_id, out.id[1] + lane);
+  const auto count = hn::Add(hn::IfThenElseZero(any, one), hn::IfThenElseZero(both, one));
+  store(hn::IfThenElse(ask, set(S(kAskGeneral)), count), out.count + lane);
+}
+
+template <class S>
+void collide_polygons(const Place<S>* places, const Convex<S>* convexes, const std::uint32_t* a, const std::uint32_t* b,
+                      ManifoldLanes<S>& out) {
+  const std::size_t width = hn::Lanes(Tag<S>());
+  for (std::size_t lane = 0; lane < static_cast<std::size_t>(kLanes<S>); lane += width)
+    collide_vector(places, convexes, a, b, lane, out);
+}
+
+template <class S>
+constexpr PolygonKernels<S> kKernels{collide_polygons<S>};
+
+}  // namespace
+
+const PolygonKernels<float>* float_polygon_kernels() { return &kKernels<float>; }
+const PolygonKernels<double>* double_polygon_kernels() { return &kKernels<double>; }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace urto
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace urto {
+
+HWY_EXPORT(float_polygon_kernels);
+HWY_EXPORT(double_polygon_kernels);
+
+template <>
+const PolygonKernels<float>& polygon_kernels<float>() {
+  return *HWY_DYNAMIC_DISPATCH(float_polygon_kernels)();
+}
+template <>
+const PolygonKernels<double>& polygon_kernels<double>() {
+  return *HWY_DYNAMIC_DISPATCH(double_polygon_kernels)();
+}
+
+}  // namespace urto
+#endif
