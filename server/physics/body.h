@@ -46,7 +46,7 @@ struct Body {
   std::uint32_t first_shape = kNone, shape_count = 0;
   std::uint32_t first_contact = kNone;  // edge: contact · 2 + side
   std::uint32_t awake_index = kNone;
-  std::uint32_t unused = 0;
+  std::uint32_t first_joint = 0;  // edge of its joint list (joint.h), 0: none
 
   BodyType body_type() const { return static_cast<BodyType>(type); }
   bool dynamic() const { return body_type() == BodyType::kDynamic; }

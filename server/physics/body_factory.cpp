@@ -4,6 +4,7 @@
 #include "physics/constants.h"
 #include "physics/contact_graph.h"
 #include "physics/geometry/polygon.h"
+#include "physics/joint_graph.h"
 
 namespace urto {
 namespace {
@@ -329,6 +330,7 @@ template <class S>
 void destroy_body(WorldData<S>& world, std::uint32_t slot) {
   Body<S>& body = world.bodies[slot];
   wake_neighbours(world, slot);
+  while (body.first_joint != kNoJoint) destroy_joint(world, (body.first_joint - 1) >> 1);
   while (body.first_contact != kNone) destroy_contact(world, body.first_contact >> 1);
   put_to_sleep(world, slot);
   count_needs(world, slot, -1);

@@ -1,6 +1,7 @@
 #include "physics/bounds.h"
 
 #include "physics/contact_graph.h"
+#include "physics/joint_graph.h"
 
 namespace urto {
 namespace {
@@ -22,6 +23,7 @@ template <class S>
 bool may_touch(const WorldData<S>& world, const Shape<S>& a, const Shape<S>& b) {
   if (a.body == b.body || !filters_touch(a, b)) return false;
   const Body<S>&ba = world.bodies[a.body], &bb = world.bodies[b.body];
+  if (ba.first_joint != kNoJoint && bb.first_joint != kNoJoint && kept_apart(world, a.body, b.body)) return false;
   if (ba.dynamic() || bb.dynamic()) return true;
   return a.sensor() || b.sensor();  // a sensor also sees kinematic bodies
 }

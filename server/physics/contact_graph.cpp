@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "physics/joint_graph.h"
+
 namespace urto {
 namespace {
 
@@ -89,6 +91,7 @@ void wake_one(WorldData<S>& world, std::uint32_t slot) {
   body.awake_index = static_cast<std::uint32_t>(world.awake.size());
   world.awake.push_back(slot);
   for_each_contact_of(world, slot, [&](std::uint32_t contact) { activate(world, contact); });
+  activate_joints_of(world, slot);
 }
 
 }  // namespace
@@ -154,6 +157,13 @@ void wake_body(WorldData<S>& world, std::uint32_t first) {
   while (!stack.empty()) {
     const std::uint32_t slot = stack.back();
     stack.pop_back();
+    // What is joined to a body moves with it, also with a kinematic one.
+    for_each_joint_of(world, slot, [&](std::uint32_t joint) {
+      const std::uint32_t other = other_body(world.joints[joint], slot);
+      if (other == kNone || !world.bodies[other].dynamic() || world.bodies[other].awake()) return;
+      wake_one(world, other);
+      stack.push_back(other);
+    });
     if (!world.bodies[slot].dynamic()) continue;
     for_each_contact_of(world, slot, [&](std::uint32_t contact) {
       const Contact<S>& c = world.contacts[contact];
@@ -172,6 +182,10 @@ void wake_neighbours(WorldData<S>& world, std::uint32_t slot) {
   for_each_contact_of(world, slot, [&](std::uint32_t contact) {
     const Contact<S>& c = world.contacts[contact];
     if (c.count > 0 && !c.sensor()) others.push_back(c.body_a == slot ? c.body_b : c.body_a);
+  });
+  for_each_joint_of(world, slot, [&](std::uint32_t joint) {
+    const std::uint32_t other = other_body(world.joints[joint], slot);
+    if (other != kNone) others.push_back(other);
   });
   for (std::uint32_t other : others)
     if (world.bodies[other].dynamic()) wake_body(world, other);
@@ -195,6 +209,7 @@ void put_to_sleep(WorldData<S>& world, std::uint32_t slot) {
     if (!active) deactivate(world, contact);
     if (active && c.has_lane() && body.dynamic()) release_lane(world, contact);
   });
+  deactivate_joints_of(world, slot);
   refresh_places(world, slot);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "physics/joint_graph.h"
 #include "physics/narrow_phase/gjk.h"
 #include "physics/narrow_phase/time_of_impact.h"
 
@@ -74,7 +75,7 @@ class ContinuousCollision {
     for (const auto& [low, high] : world_.scratch.pairs) {
       const Shape<S>&a = world_.shapes[low], &b = world_.shapes[high];
       if (a.sensor() || b.sensor() || a.body == b.body || !filters_touch(a, b)) continue;
-      if (close_in_fast(a.body, b.body)) push_impact(low, high);
+      if (close_in_fast(a.body, b.body) && !kept_apart(world_, a.body, b.body)) push_impact(low, high);
     }
   }
 

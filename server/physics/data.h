@@ -12,6 +12,7 @@
 #include "physics/broad_phase/broad_phase.h"
 #include "physics/contact.h"
 #include "physics/contact_set.h"
+#include "physics/joint.h"
 #include "physics/model.h"
 #include "physics/pair_set.h"
 #include "physics/places.h"
@@ -51,10 +52,13 @@ struct WorldData {
   std::vector<std::uint32_t> free_shapes;
   std::vector<Contact<S>> contacts;  // by slot
   std::vector<std::uint32_t> free_contacts;
+  std::vector<Joint<S>> joints;  // by slot
+  std::vector<std::uint32_t> free_joints;
 
-  std::vector<std::uint32_t> awake;   // body slots: awake and not static
-  std::vector<ActiveContact> active;  // contacts with an awake body and no lane
-  std::vector<Proxy> moved;           // left their fat bounds since pairs were last sought
+  std::vector<std::uint32_t> awake;          // body slots: awake and not static
+  std::vector<ActiveContact> active;         // contacts with an awake body and no lane
+  std::vector<std::uint32_t> active_joints;  // joint slots with an awake body
+  std::vector<Proxy> moved;                  // left their fat bounds since pairs were last sought
 
   // Derived: rebuilt by restore.
   Needs needs;
@@ -68,6 +72,7 @@ struct WorldData {
   // be those of the next.
   std::vector<ContactEvent> events;
   std::size_t events_reported = 0;
+  std::vector<JointEvent> joint_events;  // of the last step
 
   Scratch<S> scratch;
 
@@ -86,6 +91,15 @@ struct WorldData {
     visit("awake", self.awake);
     visit("active", self.active);
     visit("moved", self.moved);
+  }
+
+  // Arrays of features that few worlds have. One that is empty leaves no trace in the saved state; a number that is
+  // never used again tells them apart.
+  template <class Self, class Visitor>
+  static void for_each_optional_field(Self& self, Visitor&& visit) {
+    visit(1u, "joints", self.joints);
+    visit(2u, "free_joints", self.free_joints);
+    visit(3u, "active_joints", self.active_joints);
   }
 };
 

@@ -10,6 +10,9 @@ namespace urto {
 enum class ErrorCode : std::uint8_t {
   kInvalidValue,     // outside its range, or not finite
   kUnknownBody,      // no body has this id (any more)
+  kUnknownJoint,     // no joint has this id (any more)
+  kWrongJointKind,   // a motor of a weld, say
+  kNotSupported,     // by the solver that the scene names
   kDegenerateShape,  // a polygon without area, crossing itself, or too thin
   kWrongBodyType,    // an impulse on a static body, say
   kLimitReached,     // a named bound of definitions.h

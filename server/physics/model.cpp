@@ -72,6 +72,7 @@ Model choose_model(const WorldSettings& settings, const Needs& needs) {
   model.sleeping = settings.sleeping && settings.solver != SolverKind::kThesis;
   // The precise solver follows every way itself.
   model.continuous = settings.continuous && needs.dynamic_bodies > 0 && settings.solver != SolverKind::kPrecise;
+  model.joints = needs.joints > 0;
   return model;
 }
 
@@ -108,6 +109,7 @@ std::vector<Feature> explain_model(const WorldSettings& settings, const Needs& n
       {"damping", model.damping ? "on" : "off", model.damping, count_of(needs.damped_bodies, "bodies are damped")});
   out.push_back({"force fields", model.fields ? "on" : "off", model.fields,
                  count_of(static_cast<std::uint32_t>(settings.fields.size()), "fields besides gravity")});
+  out.push_back({"joints", model.joints ? "on" : "off", model.joints, count_of(needs.joints, "joints")});
   out.push_back({"sensors", needs.sensors > 0 ? "on" : "off", needs.sensors > 0, count_of(needs.sensors, "sensors")});
   out.push_back({"sleeping", model.sleeping ? "on" : "off", model.sleeping,
                  thesis              ? "the thesis's solver has no rest"

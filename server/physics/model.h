@@ -14,6 +14,7 @@ struct Needs {
   std::uint32_t shapes = 0, circles = 0, boxes = 0, polygons = 0, capsules = 0, chain_segments = 0, sensors = 0;
   std::uint32_t rough_shapes = 0;     // with friction
   std::uint32_t bouncing_shapes = 0;  // with restitution
+  std::uint32_t joints = 0;
 };
 
 // What runs in a step: the one place where features are switched on or left out.
@@ -26,6 +27,7 @@ struct Model {
   bool second_integrator = false;  // a flight that is not semi-implicit Euler
   bool sleeping = false;
   bool continuous = false;
+  bool joints = false;
 };
 
 Model choose_model(const WorldSettings& settings, const Needs& needs);

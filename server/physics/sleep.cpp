@@ -26,9 +26,9 @@ bool anyone_restful(const WorldData<S>& world) {
   return false;
 }
 
-// Calls visit(body a, body b) for each contact with an awake body that has points.
+// Calls visit(body a, body b) for each contact with an awake body that has points, and for each joint with one.
 template <class S, class Visit>
-void for_each_touching(const WorldData<S>& world, Visit&& visit) {
+void for_each_bond(const WorldData<S>& world, Visit&& visit) {
   for (const auto& color : world.touching.colors)
     for (const ContactBlock<S>& block : color.blocks)
       for (std::uint32_t lane = 0; lane < block.count; ++lane) visit(block.a[lane], block.b[lane]);
@@ -36,15 +36,20 @@ void for_each_touching(const WorldData<S>& world, Visit&& visit) {
     const Contact<S>& c = world.contacts[active.contact];
     if (c.count > 0 && !c.sensor()) visit(c.body_a, c.body_b);
   }
+  for (const std::uint32_t slot : world.active_joints) {
+    const Joint<S>& j = world.joints[slot];
+    if (j.body_a != kNone) visit(j.body_a, j.body_b);
+  }
 }
 
-// Joins what touches. The smaller index becomes the root, so the grouping does not depend on the order of contacts.
+// Joins what touches or is joined. The smaller index becomes the root, so the grouping does not depend on the order of
+// contacts.
 template <class S>
 void join_islands(WorldData<S>& world) {
   std::vector<std::uint32_t>& parent = world.scratch.parent;
   parent.resize(world.awake.size());
   for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = i;
-  for_each_touching(world, [&](std::uint32_t slot_a, std::uint32_t slot_b) {
+  for_each_bond(world, [&](std::uint32_t slot_a, std::uint32_t slot_b) {
     const Body<S>&a = world.bodies[slot_a], &b = world.bodies[slot_b];
     if (!a.dynamic() || !b.dynamic() || !a.awake() || !b.awake()) return;
     const std::uint32_t ra = find_root(parent, a.awake_index), rb = find_root(parent, b.awake_index);
@@ -59,7 +64,7 @@ void mark_restless(WorldData<S>& world) {
   restless.assign(world.awake.size(), 0);
   for (std::uint32_t i = 0; i < world.awake.size(); ++i)
     if (!restful(world.bodies[world.awake[i]])) restless[find_root(parent, i)] = 1;
-  for_each_touching(world, [&](std::uint32_t slot_a, std::uint32_t slot_b) {
+  for_each_bond(world, [&](std::uint32_t slot_a, std::uint32_t slot_b) {
     const Body<S>&a = world.bodies[slot_a], &b = world.bodies[slot_b];
     const auto moved_by = [&](const Body<S>& body, const Body<S>& mover) {
       if (body.dynamic() && body.awake() && mover.body_type() == BodyType::kKinematic && mover.awake())

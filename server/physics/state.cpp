@@ -77,6 +77,13 @@ class Reader {
     value(v.x());
     value(v.y());
   }
+  // Does the number stand here?
+  bool next_is(std::uint32_t number) const {
+    std::uint32_t found = 0;
+    if (!ok_ || in_.size() < sizeof found) return false;
+    std::memcpy(&found, in_.data(), sizeof found);
+    return found == number;
+  }
   bool complete() const { return ok_ && in_.empty(); }
 
  private:
@@ -193,6 +200,7 @@ void rebuild(WorldData<S>& world, const std::vector<std::uint32_t>& lanes) {
   world.needs = Needs{};
   for (std::uint32_t slot = 0; slot < world.bodies.size(); ++slot)
     if (world.bodies[slot].alive()) count_needs(world, slot, +1);
+  for (const Joint<S>& j : world.joints) world.needs.joints += j.alive();
   world.places.clear();
   for (std::uint32_t slot = 0; slot < world.bodies.size(); ++slot) refresh_places(world, slot);
   rebuild_lanes(world, lanes);
@@ -221,6 +229,11 @@ std::vector<std::byte> save_state(const WorldData<S>& world) {
     }
   });
   out.array(lane_order(world));
+  WorldData<S>::for_each_optional_field(world, [&](std::uint32_t number, const char*, const auto& field) {
+    if (field.empty()) return;
+    out.value(number);
+    out.array(field);
+  });
   return out.finish(sizeof(S));
 }
 
@@ -239,6 +252,12 @@ Status restore_state(WorldData<S>& world, std::span<const std::byte> block) {
   });
   std::vector<std::uint32_t> lanes;
   in.array(lanes);
+  WorldData<S>::for_each_optional_field(fresh, [&](std::uint32_t number, const char*, auto& field) {
+    if (!in.next_is(number)) return;
+    std::uint32_t ignored = 0;
+    in.value(ignored);
+    in.array(field);
+  });
   if (!in.complete()) return corrupt("payload", "the state does not hold what its version should");
   rebuild(fresh, lanes);
   world = std::move(fresh);

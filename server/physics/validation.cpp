@@ -102,6 +102,70 @@ Status check_geometry(const Geometry& geometry) {
       .result();
 }
 
+Status check_limits(const std::optional<JointLimits>& limits, double low, double high) {
+  if (!limits) return {};
+  return Checks("limits.")
+      .range("lower", limits->lower, low, high)
+      .range("upper", limits->upper, limits->lower, high)
+      .result();
+}
+
+Status check_spring(const char* field, const std::optional<JointSpring>& spring) {
+  if (!spring) return {};
+  return Checks(std::string(field) + ".")
+      .above("hertz", spring->hertz, 0, kJointHertzMax)
+      .range("damping_ratio", spring->damping_ratio, 0, kDampingRatioMax)
+      .result();
+}
+
+Status check_optional_motor(const std::optional<JointMotor>& motor) { return motor ? check_motor(*motor) : Status(); }
+
+Status check_reference(const std::optional<double>& angle) {
+  return angle ? check_bounded("reference_angle", *angle, kJointAngleMax) : Status();
+}
+
+Status check_kind(const RevoluteJoint& joint) {
+  return Checks("revolute.")
+      .add(check_reference(joint.reference_angle))
+      .add(check_limits(joint.limits, -kJointAngleMax, kJointAngleMax))
+      .add(check_optional_motor(joint.motor))
+      .add(check_spring("spring", joint.spring))
+      .result();
+}
+
+Status check_kind(const DistanceJoint& joint) {
+  Checks checks("distance.");
+  if (joint.length) checks.range("length", *joint.length, 0, kCoordinateMax);
+  return checks.add(check_limits(joint.limits, 0, kCoordinateMax)).add(check_spring("spring", joint.spring)).result();
+}
+
+Status check_kind(const PrismaticJoint& joint) {
+  return Checks("prismatic.")
+      .vector("axis", joint.axis, kCoordinateMax)
+      .above("axis", joint.axis.squaredNorm(), 0, 2 * kCoordinateMax * kCoordinateMax)
+      .add(check_reference(joint.reference_angle))
+      .add(check_limits(joint.limits, -kCoordinateMax, kCoordinateMax))
+      .add(check_optional_motor(joint.motor))
+      .add(check_spring("spring", joint.spring))
+      .result();
+}
+
+Status check_kind(const WeldJoint& joint) {
+  return Checks("weld.")
+      .add(check_reference(joint.reference_angle))
+      .add(check_spring("linear", joint.linear))
+      .add(check_spring("angular", joint.angular))
+      .result();
+}
+
+Status check_kind(const MouseJoint& joint) {
+  return Checks("mouse.")
+      .vector("target", joint.target, kCoordinateMax)
+      .add(check_spring("spring", joint.spring))
+      .range("force_max", joint.force_max, 0, kJointForceMax)
+      .result();
+}
+
 Status check_shape(const ShapeDef& shape) {
   return Checks()
       .add(check_geometry(shape.geometry))
@@ -206,6 +270,23 @@ Status check_body_def(const BodyDef& def) {
   for (std::size_t i = 0; i < def.shapes.size(); ++i)
     checks.add(Checks(indexed("shapes", i)).add(check_shape(def.shapes[i])).result());
   return checks.result();
+}
+
+Status check_motor(const JointMotor& motor) {
+  return Checks("motor.")
+      .bounded("speed", motor.speed, kSpeedMax)
+      .range("bound", motor.bound, 0, kJointForceMax)
+      .result();
+}
+
+Status check_joint_def(const JointDef& def) {
+  return Checks()
+      .vector("anchor_a", def.anchor_a, kCoordinateMax)
+      .vector("anchor_b", def.anchor_b, kCoordinateMax)
+      .above("break_force", def.break_force, 0, kUnbreakable)
+      .above("break_torque", def.break_torque, 0, kUnbreakable)
+      .add(std::visit([](const auto& joint) { return check_kind(joint); }, def.geometry))
+      .result();
 }
 
 }  // namespace urto

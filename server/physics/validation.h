@@ -2,6 +2,7 @@
 
 #include "physics/definitions.h"
 #include "physics/error.h"
+#include "physics/joint_definitions.h"
 
 namespace urto {
 
@@ -9,6 +10,9 @@ namespace urto {
 
 Status check_settings(const WorldSettings& settings);
 Status check_body_def(const BodyDef& def);
+// All but the bodies.
+Status check_joint_def(const JointDef& def);
+Status check_motor(const JointMotor& motor);
 
 // kInvalidValue unless |value| ≤ bound (and it is a number).
 Status check_bounded(const char* field, double value, double bound);

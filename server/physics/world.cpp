@@ -8,6 +8,8 @@
 #include "physics/contact_graph.h"
 #include "physics/contacts.h"
 #include "physics/continuous.h"
+#include "physics/joint_graph.h"
+#include "physics/joint_state.h"
 #include "physics/motion.h"
 #include "physics/query.h"
 #include "physics/sleep.h"
@@ -92,6 +94,7 @@ template <class S>
 void WorldOf<S>::step() {
   profile_ = Profile{};
   data_.events.erase(data_.events.begin(), data_.events.begin() + static_cast<std::ptrdiff_t>(data_.events_reported));
+  data_.joint_events.clear();
   run(Phase::kUpdateBroadPhase, [&] { update_broad_phase(data_); });
   run(Phase::kUpdateContacts, [&] { update_contacts(data_); });
   run(Phase::kSolve, [&] { solve(); });
@@ -101,6 +104,7 @@ void WorldOf<S>::step() {
   run(Phase::kUpdateSleep, [&] {
     finish_motions();
     report_contact_events(data_);
+    if (data_.model.joints) break_joints(data_);
     if (data_.model.sleeping) update_sleep(data_);
   });
   data_.events_reported = data_.events.size();
@@ -111,7 +115,7 @@ template <class S>
 void WorldOf<S>::solve() {
   switch (data_.settings.solver) {
     case SolverKind::kSoftStep:
-      return solve_soft_step(data_);
+      return solve_soft_step(data_, joint_set_);
     case SolverKind::kThesis:
       return solve_thesis(data_);
     case SolverKind::kPrecise:
@@ -301,7 +305,7 @@ Status WorldOf<S>::set_awake(BodyId id, bool awake) {
   if (awake) {
     wake_body(data_, slot);
   } else {
-    put_to_sleep(data_, slot);
+    put_joined_to_sleep(data_, slot);
   }
   return {};
 }
@@ -348,6 +352,7 @@ Counters WorldOf<S>::counters() const {
   out.bodies = data_.needs.bodies;
   out.awake_bodies = static_cast<std::uint32_t>(data_.awake.size());
   out.shapes = data_.needs.shapes;
+  out.joints = data_.needs.joints;
   out.pairs = static_cast<std::uint32_t>(data_.contacts.size() - data_.free_contacts.size());
   for (std::uint32_t slot = 0; slot < data_.contacts.size(); ++slot) {
     if (!data_.contacts[slot].alive()) continue;

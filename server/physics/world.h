@@ -13,6 +13,7 @@
 
 #include "physics/definitions.h"
 #include "physics/error.h"
+#include "physics/joint_definitions.h"
 
 namespace urto {
 
@@ -99,7 +100,7 @@ struct Profile {
 };
 
 struct Counters {
-  std::uint32_t bodies = 0, awake_bodies = 0, shapes = 0;
+  std::uint32_t bodies = 0, awake_bodies = 0, shapes = 0, joints = 0;
   std::uint32_t pairs = 0;     // of shapes whose fat bounds overlap
   std::uint32_t contacts = 0;  // touching pairs
   double penetration_max = 0;  // m ≥ 0, of the last step
@@ -142,6 +143,21 @@ class World {
   virtual Status set_velocity(BodyId id, const Vec2& velocity, double angular_velocity) = 0;
   virtual Status set_transform(BodyId id, const Vec2& position, double angle) = 0;
   virtual Status set_awake(BodyId id, bool awake) = 0;
+
+  // Joints. A joint goes with either of its bodies. Adding, removing and changing one wakes its bodies.
+  // Errors of all: kInvalidValue, kUnknownBody, kUnknownJoint, kWrongBodyType (no dynamic body), kWrongJointKind,
+  // kLimitReached, kNotSupported (by a solver other than the soft step).
+  virtual Expected<JointId> add_joint(const JointDef& def) = 0;
+  // The checks of add_joint alone. What passes is accepted while fewer than kJointsMax joints exist.
+  virtual Status check_joint(const JointDef& def) const = 0;
+  virtual Status remove_joint(JointId id) = 0;
+  virtual bool contains_joint(JointId id) const = 0;
+  virtual Status set_motor(JointId id, const JointMotor& motor) = 0;  // revolute and prismatic joints
+  virtual Status set_target(JointId id, const Vec2& target) = 0;      // m, mouse joints
+  virtual Expected<JointState> joint(JointId id) const = 0;
+  virtual std::vector<JointId> joints() const = 0;  // ascending
+  // Joints that broke in the last step, in a fixed order.
+  virtual std::span<const JointEvent> joint_events() const = 0;
 
   // Advances by settings().time_step.
   virtual void step() = 0;

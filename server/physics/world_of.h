@@ -1,6 +1,7 @@
 #pragma once
 
 #include "physics/data.h"
+#include "physics/solver/joint_set.h"
 #include "physics/solver/precise/precise.h"
 #include "physics/world.h"
 
@@ -28,6 +29,16 @@ class WorldOf final : public World {
   Status set_velocity(BodyId id, const Vec2& velocity, double angular_velocity) override;
   Status set_transform(BodyId id, const Vec2& position, double angle) override;
   Status set_awake(BodyId id, bool awake) override;
+
+  Expected<JointId> add_joint(const JointDef& def) override;
+  Status check_joint(const JointDef& def) const override;
+  Status remove_joint(JointId id) override;
+  bool contains_joint(JointId id) const override { return joint_slot_of(id) != kNone; }
+  Status set_motor(JointId id, const JointMotor& motor) override;
+  Status set_target(JointId id, const Vec2& target) override;
+  Expected<JointState> joint(JointId id) const override;
+  std::vector<JointId> joints() const override;
+  std::span<const JointEvent> joint_events() const override { return data_.joint_events; }
 
   void step() override;
   std::uint64_t step_count() const override { return data_.step_count; }
@@ -57,6 +68,8 @@ class WorldOf final : public World {
 
  private:
   std::uint32_t slot_of(BodyId id) const;
+  std::uint32_t joint_slot_of(JointId id) const;
+  Status check_joint_target(JointId id, bool right_kind, const char* message) const;
   // kUnknownBody, or kWrongBodyType if `dynamic` is asked for and the body is not.
   Status check_target(BodyId id, bool dynamic) const;
   void solve();
@@ -65,6 +78,7 @@ class WorldOf final : public World {
   void run(Phase phase, PhaseFunction&& function);
 
   WorldData<S> data_;
+  JointSet<S> joint_set_;  // kept for its capacity
   PreciseSolver precise_;  // kept for its capacity
   Clock clock_;
   Profile profile_;

@@ -249,6 +249,10 @@ RejectionCode code_from(ErrorCode code) {
       return RejectionCode::kDegenerateShape;
     case ErrorCode::kWrongBodyType:
       return RejectionCode::kWrongBodyType;
+    case ErrorCode::kUnknownJoint:
+    case ErrorCode::kWrongJointKind:
+    case ErrorCode::kNotSupported:
+      return RejectionCode::kInvalidValue;  // no command asks for joints
     case ErrorCode::kLimitReached:
       return RejectionCode::kQuota;
     case ErrorCode::kCorruptState:

@@ -188,6 +188,49 @@ void fill_orbits(World& world) {
   }
 }
 
+void join(World& world, BodyId a, BodyId b, const Vec2& at_a, const Vec2& at_b, JointGeometry geometry,
+          double break_force = kUnbreakable) {
+  JointDef def;
+  def.body_a = a;
+  def.body_b = b;
+  def.anchor_a = at_a;
+  def.anchor_b = at_b;
+  def.geometry = std::move(geometry);
+  def.break_force = break_force;
+  if (world.add_joint(def)) return;
+  std::fprintf(stderr, "a joint was refused\n");
+  std::exit(2);
+}
+
+// A grid of hinged discs, a bridge that breaks under what falls on it, and a joint of every other kind.
+void fill_joints(World& world) {
+  constexpr BodyId kGrid = 1;  // ids of a new world count from 1
+  constexpr int kSide = 12;
+  for (int index = 0; index < kSide * kSide; ++index) {
+    const bool held = index % 40 == 0;
+    add(world, body(held ? BodyType::kStatic : BodyType::kDynamic, index % kSide, 20 - index / kSide, Circle{0.4}));
+    const BodyId id = kGrid + static_cast<BodyId>(index);
+    if (index % kSide > 0) join(world, id - 1, id, Vec2(0.5, 0), Vec2(-0.5, 0), RevoluteJoint{});
+    if (index >= kSide) join(world, id - kSide, id, Vec2(0, -0.5), Vec2(0, 0.5), RevoluteJoint{});
+  }
+  const BodyId bridge = kGrid + kSide * kSide;
+  add_ground(world, 30);
+  add(world, body(BodyType::kStatic, -1, 3, Box{1, 0.2}));
+  for (int plank = 0; plank < 12; ++plank) add(world, body(BodyType::kDynamic, plank, 3, Box{0.9, 0.2}));
+  add(world, body(BodyType::kStatic, 12, 3, Box{1, 0.2}));
+  for (BodyId id = bridge + 1; id < bridge + 14; ++id)
+    join(world, id, id + 1, Vec2(0.5, 0), Vec2(-0.5, 0), RevoluteJoint{}, 60);
+  const BodyId loose = bridge + 15;
+  for (int index = 0; index < 6; ++index) add(world, body(BodyType::kDynamic, -20 + 2 * index, 4, Box{1, 1}));
+  const RevoluteJoint revolute{0.1, JointLimits{-1, 2}, JointMotor{true, 3, 20}, JointSpring{2, 0.3}};
+  join(world, loose, loose + 1, Vec2(1, 0), Vec2(-1, 0), revolute);
+  join(world, loose + 1, loose + 2, Vec2(0, 0), Vec2(0, 0.2), DistanceJoint{2.5, {}, JointSpring{3, 0.1}});
+  join(world, loose + 2, loose + 3, Vec2(0, 0), Vec2(0, 0),
+       PrismaticJoint{Vec2(1, 0.2), {}, JointLimits{1, 3}, {}, {}});
+  join(world, loose + 3, loose + 4, Vec2(1, 0), Vec2(-1, 0), WeldJoint{{}, {}, JointSpring{4, 0.5}});
+  join(world, 0, loose + 5, Vec2(0, 0), Vec2(0.4, 0), MouseJoint{Vec2(-8, 7), JointSpring{3, 0.7}, 60});
+}
+
 // What a room does to a world: impulses, forces, removals, teleports, in the middle of a run.
 void disturb(World& world) {
   BodyColumns columns;
@@ -212,6 +255,7 @@ std::vector<Case> cases() {
     list.push_back({"discs" + suffix, 200, settings, fill_discs});
     list.push_back({"bullets" + suffix, 120, settings, fill_bullets});
     list.push_back({"tumbler" + suffix, 200, settings, fill_tumbler});
+    list.push_back({"joints" + suffix, 400, settings, fill_joints});
 
     WorldSettings changed = settings;
     changed.narrow_phase = NarrowPhaseKind::kGjk;

@@ -29,7 +29,56 @@ Status FakeWorld::check_body(const BodyDef& def) const {
 Status FakeWorld::remove_body(BodyId id) {
   if (Status status = find(id, "remove_body"); !status) return status;
   bodies_.erase(id);
+  std::erase_if(joints_,
+                [id](const auto& entry) { return entry.second.def.body_a == id || entry.second.def.body_b == id; });
   return {};
+}
+
+Status FakeWorld::check_joint(const JointDef& def) const {
+  if (def.break_force > 0) return {};
+  return failure(ErrorCode::kInvalidValue, "break_force", std::to_string(def.break_force),
+                 "A force above 0 is needed.");
+}
+
+Expected<JointId> FakeWorld::add_joint(const JointDef& def) {
+  if (Status status = check_joint(def); !status) return tl::unexpected<Error>(status.error());
+  for (const BodyId body : {def.body_a, def.body_b})
+    if (body != 0 && !contains(body))
+      return failure(ErrorCode::kUnknownBody, "body", std::to_string(body), "No such body.");
+  FakeJoint& made = joints_[++last_joint_];
+  made.def = def;
+  made.state.kind = static_cast<JointKind>(def.geometry.index());
+  made.state.body_a = def.body_a;
+  made.state.body_b = def.body_b;
+  return last_joint_;
+}
+
+Status FakeWorld::remove_joint(JointId id) {
+  if (joints_.erase(id) > 0) return {};
+  return failure(ErrorCode::kUnknownJoint, "joint", std::to_string(id), "No such joint.");
+}
+
+Status FakeWorld::set_motor(JointId id, const JointMotor& motor) {
+  if (!contains_joint(id)) return failure(ErrorCode::kUnknownJoint, "joint", std::to_string(id), "No such joint.");
+  joints_[id].state.motor = motor;
+  return {};
+}
+
+Status FakeWorld::set_target(JointId id, const Vec2& target) {
+  if (!contains_joint(id)) return failure(ErrorCode::kUnknownJoint, "joint", std::to_string(id), "No such joint.");
+  joints_[id].state.point_a = target;
+  return {};
+}
+
+Expected<JointState> FakeWorld::joint(JointId id) const {
+  if (!contains_joint(id)) return failure(ErrorCode::kUnknownJoint, "joint", std::to_string(id), "No such joint.");
+  return joints_.at(id).state;
+}
+
+std::vector<JointId> FakeWorld::joints() const {
+  std::vector<JointId> out;
+  for (const auto& [id, joint] : joints_) out.push_back(id);
+  return out;
 }
 
 Expected<BodyState> FakeWorld::body(BodyId id) const {
@@ -89,6 +138,12 @@ void FakeWorld::step() {
   ++step_count_;
   contact_events_ = std::move(next_contacts);
   next_contacts.clear();
+  joint_events_.clear();
+  for (const JointId id : next_breaks) {
+    joint_events_.push_back({id, joints_.at(id).def.body_a, joints_.at(id).def.body_b, Vec2(0, 0), 1, 0});
+    joints_.erase(id);
+  }
+  next_breaks.clear();
   const double h = settings_.time_step;
   for (auto& [id, body] : bodies_) {
     if (body.def.type == BodyType::kDynamic) body.state.velocity += h / body.def.mass.value_or(1) * body.force;

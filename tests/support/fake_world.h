@@ -32,6 +32,17 @@ class FakeWorld : public World {
   Status set_transform(BodyId id, const Vec2& position, double angle) override;
   Status set_awake(BodyId id, bool awake) override;
 
+  // Joints hold nothing together: they are only kept.
+  Expected<JointId> add_joint(const JointDef& def) override;
+  Status check_joint(const JointDef& def) const override;
+  Status remove_joint(JointId id) override;
+  bool contains_joint(JointId id) const override { return joints_.count(id) > 0; }
+  Status set_motor(JointId id, const JointMotor& motor) override;
+  Status set_target(JointId id, const Vec2& target) override;
+  Expected<JointState> joint(JointId id) const override;
+  std::vector<JointId> joints() const override;
+  std::span<const JointEvent> joint_events() const override { return joint_events_; }
+
   void step() override;
   std::uint64_t step_count() const override { return step_count_; }
 
@@ -55,7 +66,8 @@ class FakeWorld : public World {
   std::uint64_t state_hash() const override { return 42 + step_count_; }
 
   std::vector<ContactEvent> next_contacts;
-  std::string refuse;  // the name of a function above
+  std::vector<JointId> next_breaks;  // joints that the next step breaks
+  std::string refuse;                // the name of a function above
 
  private:
   struct Body {
@@ -71,6 +83,13 @@ class FakeWorld : public World {
   BodyId last_id_ = 0;
   std::uint64_t step_count_ = 0;
   std::vector<ContactEvent> contact_events_;
+  struct FakeJoint {
+    JointDef def;
+    JointState state;
+  };
+  std::map<JointId, FakeJoint> joints_;
+  JointId last_joint_ = 0;
+  std::vector<JointEvent> joint_events_;
 };
 
 }  // namespace urto::testing

@@ -3,17 +3,19 @@
 #include "physics/constants.h"
 #include "physics/motion.h"
 #include "physics/solver/contact_kernels.h"
+#include "physics/solver/joint_passes.h"
 #include "physics/solver/softness.h"
 
 namespace urto {
 namespace {
 
-// A body without contacts advances by the scene's integrator; one with contacts needs velocities that the contacts
-// have seen, which is what semi-implicit Euler gives.
+// A body without contacts and joints advances by the scene's integrator; one with contacts needs velocities that the
+// contacts have seen, which is what semi-implicit Euler gives.
 template <class S>
 bool flies(const WorldData<S>& world, std::uint32_t slot) {
   const std::vector<std::uint64_t>& taken = world.touching.taken;
-  return world.model.second_integrator && (slot >= taken.size() || taken[slot] == 0);
+  return world.model.second_integrator && (slot >= taken.size() || taken[slot] == 0) &&
+         world.bodies[slot].first_joint == kNoJoint;
 }
 
 template <class S>
@@ -48,7 +50,7 @@ PassSettings<S> pass_settings(const WorldData<S>& world, S h) {
 }  // namespace
 
 template <class S>
-void solve_soft_step(WorldData<S>& world) {
+void solve_soft_step(WorldData<S>& world, JointSet<S>& joint_set) {
   const std::uint32_t n = world.settings.sub_steps;
   const S h = S(world.settings.time_step / n);
   const Mover<S> mover(world, h);
@@ -58,20 +60,25 @@ void solve_soft_step(WorldData<S>& world) {
     for (auto& color : world.touching.colors)
       if (!color.blocks.empty()) pass(world.motions.data(), color.blocks.data(), color.blocks.size(), settings);
   };
+  JointPasses<S> joints(world, joint_set, h);
   for (std::uint32_t i = 0; i < n; ++i) {
     integrate_velocities(world, mover);
+    joints.warm_start();
     run(passes.warm_start);
+    joints.solve();
     run(passes.solve);
     integrate_positions(world, mover);
+    joints.relax();
     run(passes.relax);
   }
+  joints.store();
   if (!world.model.restitution) return;
   for (auto& color : world.touching.colors)
     if (!color.blocks.empty())
       passes.restitute(world.motions.data(), color.blocks.data(), color.rest.data(), color.blocks.size(), settings);
 }
 
-template void solve_soft_step(WorldData<float>&);
-template void solve_soft_step(WorldData<double>&);
+template void solve_soft_step(WorldData<float>&, JointSet<float>&);
+template void solve_soft_step(WorldData<double>&, JointSet<double>&);
 
 }  // namespace urto

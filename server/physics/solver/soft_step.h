@@ -1,6 +1,7 @@
 #pragma once
 
 #include "physics/data.h"
+#include "physics/solver/joint_set.h"
 
 namespace urto {
 
@@ -12,8 +13,9 @@ namespace urto {
 // - two points of a manifold are solved together, so that a stack does not creep sideways.
 //
 // Per sub-step: integrate velocities, warm start, solve with bias, integrate positions, relax (solve without bias).
-// After the last: restitution. Works on the lanes of the contact set in place.
+// After the last: restitution. Works on the lanes of the contact set in place; joints come before contacts in each
+// pass, so that contacts are firmest. `joints` is a buffer that keeps its capacity between steps.
 template <class S>
-void solve_soft_step(WorldData<S>& world);
+void solve_soft_step(WorldData<S>& world, JointSet<S>& joints);
 
 }  // namespace urto
