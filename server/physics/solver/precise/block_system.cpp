@@ -1,9 +1,10 @@
 #include "physics/solver/precise/block_system.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <set>
+
+#include "physics/geometry/vector.h"
 
 namespace urto {
 namespace {
@@ -16,29 +17,35 @@ inline void subtract_product(double* target, const double* a, const double* b) {
   }
 }
 
-// Inverse by cofactors after scaling by the diagonal: masses and inertias may differ by many powers of ten.
-bool invert(double* m) {
-  double scale[3];
-  for (int i = 0; i < 3; ++i) {
-    if (!(m[4 * i] > 0.0)) return false;
-    scale[i] = 1.0 / std::sqrt(m[4 * i]);
+// A diagonal block is replaced by its triangular factors: L with ones on its diagonal below, U above. Not by its
+// inverse: stiff contacts make it nearly singular, and the inverse would lose what the factors keep.
+bool factor(double* m) {
+  for (int k = 0; k < 3; ++k) {
+    if (!(absolute(m[4 * k]) > 0.0)) return false;
+    for (int i = k + 1; i < 3; ++i) {
+      m[3 * i + k] /= m[4 * k];
+      for (int j = k + 1; j < 3; ++j) m[3 * i + j] -= m[3 * i + k] * m[3 * k + j];
+    }
   }
-  double s[9];
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) s[3 * i + j] = m[3 * i + j] * scale[i] * scale[j];
-  const double c0 = s[4] * s[8] - s[5] * s[7], c1 = s[5] * s[6] - s[3] * s[8], c2 = s[3] * s[7] - s[4] * s[6];
-  const double determinant = s[0] * c0 + s[1] * c1 + s[2] * c2;
-  if (!(determinant > 0.0)) return false;
-  const double inverse[9] = {c0, s[2] * s[7] - s[1] * s[8], s[1] * s[5] - s[2] * s[4],
-                             c1, s[0] * s[8] - s[2] * s[6], s[2] * s[3] - s[0] * s[5],
-                             c2, s[1] * s[6] - s[0] * s[7], s[0] * s[4] - s[1] * s[3]};
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) m[3 * i + j] = inverse[3 * i + j] / determinant * scale[i] * scale[j];
   return true;
 }
 
-inline void multiply(const double* m, const double* x, double* out) {
-  for (int i = 0; i < 3; ++i) out[i] = m[3 * i] * x[0] + m[3 * i + 1] * x[1] + m[3 * i + 2] * x[2];
+// b ← L⁻¹ b, columns at a time.
+inline void solve_lower(const double* m, double* b) {
+  for (int j = 0; j < 3; ++j) {
+    b[3 + j] -= m[3] * b[j];
+    b[6 + j] -= m[6] * b[j] + m[7] * b[3 + j];
+  }
+}
+
+// b ← b U⁻¹, rows at a time.
+inline void solve_upper(const double* m, double* b) {
+  for (int i = 0; i < 3; ++i) {
+    double* row = b + 3 * i;
+    row[0] /= m[0];
+    row[1] = (row[1] - row[0] * m[1]) / m[4];
+    row[2] = (row[2] - row[0] * m[2] - row[1] * m[5]) / m[8];
+  }
 }
 
 inline void subtract_multiply(const double* m, const double* x, double* out) {
@@ -117,11 +124,10 @@ void BlockSystem::eliminate(std::uint32_t pivot) {
   const std::size_t begin = start_[pivot], end = start_[pivot + 1];
   double* const upper = values_.data() + 9 * static_cast<std::size_t>(nodes_);
   double* const lower = upper + 9 * later_.size();
-  const double* const inverse = values_.data() + 9 * static_cast<std::size_t>(pivot);
+  const double* const diagonal = values_.data() + 9 * static_cast<std::size_t>(pivot);
   for (std::size_t k = begin; k < end; ++k) {
-    double product[9] = {};
-    subtract_product(product, lower + 9 * k, inverse);
-    for (int i = 0; i < 9; ++i) lower[9 * k + i] = -product[i];
+    solve_lower(diagonal, upper + 9 * k);
+    solve_upper(diagonal, lower + 9 * k);
   }
   for (std::size_t k = begin; k < end; ++k) {
     const std::uint32_t row = later_[k];
@@ -137,7 +143,7 @@ void BlockSystem::eliminate(std::uint32_t pivot) {
 
 bool BlockSystem::factorise() {
   for (std::uint32_t pivot = 0; pivot < nodes_; ++pivot) {
-    if (!invert(values_.data() + 9 * static_cast<std::size_t>(pivot))) return false;
+    if (!factor(values_.data() + 9 * static_cast<std::size_t>(pivot))) return false;
     eliminate(pivot);
   }
   return true;
@@ -150,16 +156,23 @@ void BlockSystem::solve(std::vector<double>& x) const {
     for (int i = 0; i < 3; ++i) y[3 * p + i] = x[3 * node_[p] + i];
   const double* const upper = values_.data() + 9 * static_cast<std::size_t>(nodes_);
   const double* const lower = upper + 9 * later_.size();
-  for (std::uint32_t p = 0; p < nodes_; ++p)
+  for (std::uint32_t p = 0; p < nodes_; ++p) {
+    const double* m = values_.data() + 9 * static_cast<std::size_t>(p);
+    double* z = &y[3 * static_cast<std::size_t>(p)];
+    z[1] -= m[3] * z[0];
+    z[2] -= m[6] * z[0] + m[7] * z[1];
     for (std::size_t k = start_[p]; k < start_[p + 1]; ++k)
-      subtract_multiply(lower + 9 * k, &y[3 * p], &y[3 * static_cast<std::size_t>(later_[k])]);
+      subtract_multiply(lower + 9 * k, z, &y[3 * static_cast<std::size_t>(later_[k])]);
+  }
   for (std::uint32_t p = nodes_; p-- > 0;) {
+    const double* m = values_.data() + 9 * static_cast<std::size_t>(p);
+    double* z = &y[3 * static_cast<std::size_t>(p)];
     for (std::size_t k = start_[p]; k < start_[p + 1]; ++k)
-      subtract_multiply(upper + 9 * k, &y[3 * static_cast<std::size_t>(later_[k])], &y[3 * p]);
-    double z[3];
-    multiply(values_.data() + 9 * static_cast<std::size_t>(p), &y[3 * p], z);
-    for (int i = 0; i < 3; ++i) x[3 * node_[p] + i] = z[i];
-    for (int i = 0; i < 3; ++i) y[3 * p + i] = z[i];
+      subtract_multiply(upper + 9 * k, &y[3 * static_cast<std::size_t>(later_[k])], z);
+    z[2] /= m[8];
+    z[1] = (z[1] - m[5] * z[2]) / m[4];
+    z[0] = (z[0] - m[1] * z[1] - m[2] * z[2]) / m[0];
+    for (int i = 0; i < 3; ++i) x[3 * static_cast<std::size_t>(node_[p]) + static_cast<std::size_t>(i)] = z[i];
   }
 }
 

@@ -51,8 +51,7 @@ void PreciseStep::look_around(std::uint32_t slot, double now) {
     if (c.sensor() || pair.cluster == serial_) return;
     pair.cluster = serial_;
     account(contact, now);
-    pair.held = pair.parting = 0;
-    if (now == 0.0 && c.count == 0) return;
+    pair.held = 0;
     const std::uint32_t other = c.body_a == slot ? c.body_b : c.body_a;
     const Path other_path = paths_[other].from(now);
     const Path &path_a = c.body_a == slot ? paths_[slot] : other_path,

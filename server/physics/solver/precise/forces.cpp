@@ -40,14 +40,10 @@ void PreciseStep::build_problem(Purpose purpose, double duration) {
     problem_.bodies.push_back(body);
   }
   for (std::uint32_t i = 0; i < touching_.size(); ++i) {
-    Pair& pair = pairs_[touching_[i].contact];
     for (int k = 0; k < touching_[i].touch.count; ++k) {
       if (purpose == Purpose::kForces) {
-        if (parting(touching_[i], k) > kRestSpeed) {
-          pair.parting = 1;
-          continue;
-        }
-        ++pair.held;
+        if (parting(touching_[i], k) > kRestSpeed) continue;
+        ++pairs_[touching_[i].contact].held;
       }
       add_point(purpose, i, static_cast<std::uint32_t>(k), duration);
     }

@@ -13,14 +13,15 @@ struct Runner {
   const Body<double>& body;
   const Convex<double>& shape;
   const Path& path;
-  double reach = 0;  // m, of the corner furthest from the centre of mass, radius included
+  double arm = 0;    // m, of the corner furthest from the centre of mass
+  double reach = 0;  // m, the same with the radius
   Path now;
   Vec2 arms[kPolygonVerticesMax];  // m, world axes
 
   Runner(const Body<double>& b, const Convex<double>& convex, const Path& p) : body(b), shape(convex), path(p), now(p) {
     for (std::uint32_t i = 0; i < shape.count; ++i)
-      reach = max_of(reach, length<double>(shape.vertices[i] - body.local_center()));
-    reach += shape.radius;
+      arm = max_of(arm, length<double>(shape.vertices[i] - body.local_center()));
+    reach = arm + shape.radius;
   }
   Stance move_to(double time) {
     now = path.from(time);
@@ -54,9 +55,9 @@ class Bound {
       : a_(a), b_(b), normal_(normal), relation_(relation), turn_(turn) {
     const double wa = a.turning(end), wb = b.turning(end);
     const double wn = turn == 0.0 && turn_gain == 0.0 ? 0.0 : max_of(wa, wb);
-    const double away = length<double>(relation.apart) + relation.speed_max * (end - a.now.since) + a.reach + b.reach;
-    curve_ = relation.acceleration + (wa * wa + absolute(a.path.aw)) * a.reach +
-             (wb * wb + absolute(b.path.aw)) * b.reach + 2 * wn * (relation.speed_max + wa * a.reach + wb * b.reach) +
+    const double away = length<double>(relation.apart) + relation.speed_max * (end - a.now.since) + a.arm + b.arm;
+    curve_ = relation.acceleration + (wa * wa + absolute(a.path.aw)) * a.arm + (wb * wb + absolute(b.path.aw)) * b.arm +
+             2 * wn * (relation.speed_max + wa * a.arm + wb * b.arm) +
              (wn * wn + absolute(turn_gain)) * (wn > 0.0 ? away : 0.0);
   }
 

@@ -54,6 +54,7 @@ void PreciseStep::add_impulse(std::uint32_t contact, std::uint32_t point, const 
 
 void PreciseStep::collide(const Touching& t) {
   ++pairs_[t.contact].bounces;
+  ++pairs_[t.contact].strikes;
   const Collision collision = collision_of(world_->contacts[t.contact]);
   const bool first = parting(t, 0) < -kRestSpeed;
   if (t.touch.count == 2 && first && parting(t, 1) < -kRestSpeed) {
@@ -82,6 +83,7 @@ void PreciseStep::stop_approach() {
   }
   for (std::size_t k = 0; k < origins_.size(); ++k) {
     const ProblemPoint& p = problem_.points[k];
+    if (p.normal_impulse > 0.0) ++pairs_[touching_[origins_[k].touching].contact].strikes;
     add_impulse(touching_[origins_[k].touching].contact, origins_[k].point, {p.normal_impulse, p.tangent_impulse});
   }
 }

@@ -246,7 +246,7 @@ ProblemAnswer solve(ContactProblem& problem, ProblemWorkspace& work) {
   Impulses guess;
   guess.take(problem);
   answer = solve_by_newton(problem, work, kNewtonRounds);
-  if (answer.solved()) return answer;
+  if (answer.residual <= kGoodEnough * answer.tolerance) return answer;
   Impulses best;
   best.take(problem);
   solve_by_interior_point(problem, work);

@@ -114,15 +114,15 @@ void PreciseStep::take(const Event& event) {
   for (std::uint32_t slot : {c.body_a, c.body_b})
     if (world_->bodies[slot].dynamic()) wake_body(*world_, slot);
   for (std::size_t i = awake_before; i < world_->awake.size(); ++i) start_path(world_->awake[i], event.time);
-  const std::uint32_t seeds = serial_;
+  const std::uint32_t seeds = serial_, strikes = pairs_[event.contact].strikes;
   settle(world_->bodies[c.body_a].dynamic() ? c.body_a : c.body_b, event.time);
   for (std::size_t i = awake_before; i < world_->awake.size(); ++i) {
     const std::uint32_t slot = world_->awake[i];
     if (world_->bodies[slot].dynamic() && serials_[slot] <= seeds) settle(slot, event.time);
   }
-  // Not touching after all (a search that ran out of rounds, corners that pass each other): look again a little later.
+  // Nothing came of it (a search that ran out of rounds, corners that pass each other), or too much: look again later.
   Pair& met = pairs_[event.contact];
-  if (met.held == 0 && !met.parting) {
+  if (met.held == 0 && (met.strikes == strikes || met.strikes > kStrikesMax)) {
     met.silence = met.silence == 0.0 ? kSilence * h_ : kSilenceGrowth * met.silence;
     met.silent_until = event.time + met.silence;
   }

@@ -23,11 +23,11 @@ class PreciseStep {
     double since = 0;                                            // s into the step: from when on they act
     double silent_until = 0;                                     // s into the step: not looked at before
     double silence = 0;                                          // s, of the last time that it was looked at in vain
-    std::uint32_t bounces = 0;
-    std::uint32_t touch_id = 0;   // of the first point
-    std::uint32_t cluster = 0;    // serial of the last one that saw it
-    std::uint32_t held = 0;       // points that the last settlement held closed
-    std::uint32_t parting = 0;    // 1: touched then, on the way apart
+    std::uint32_t bounces = 0;                                   // impacts with restitution
+    std::uint32_t strikes = 0;                                   // all impacts
+    std::uint32_t touch_id = 0;                                  // of the first point
+    std::uint32_t cluster = 0;                                   // serial of the last one that saw it
+    std::uint32_t held = 0;                                      // points that the last settlement held closed
     std::uint32_t scheduled = 0;  // serial of the last cluster after which it was looked at
   };
   // Two shapes that touch within the cluster.

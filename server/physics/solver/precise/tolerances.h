@@ -10,10 +10,12 @@ namespace urto {
 // the largest impulse.
 inline constexpr double kResidual = 1e-13;
 inline constexpr double kRoundings = 64;
+// Newton's method ends sooner where points are all but redundant; up to so many tolerances that is the answer.
+inline constexpr double kGoodEnough = 1e3;
 // Weight of a constraint in the factorised matrix, in masses of the heavier body. A repetition shrinks the error by 1 /
 // (1 + stiffness · the least eigenvalue of the contacts), which is 2.5e-4 for a stack of a hundred; each decade costs a
 // digit of the factorisation, which the next repetition brings back.
-inline constexpr double kStiffness = 1e6;
+inline constexpr double kStiffness = 1e7;
 inline constexpr int kCorrectionsFirst = 3;  // repetitions before their gain is looked at
 inline constexpr int kCorrectionsMax = 24;
 // Rounds of Newton's method from the guess, and after the interior-point method. Where it converges it takes under ten;
@@ -43,6 +45,7 @@ inline constexpr int kAdvancesMaxPrecise = 64;
 inline constexpr int kImpactRoundsMax = 256;
 // Bounces of a pair in one step: of more, as those of a ball that comes to rest, the rest is inelastic.
 inline constexpr unsigned kBouncesMax = 64;
+inline constexpr unsigned kStrikesMax = 128;  // of all impacts of a pair in one step: then it rests for a moment
 // A pair whose search ended without a touch is looked at again after this share of the step, and then ever later:
 // one-sided segments let pass what comes from behind.
 inline constexpr double kSilence = 1e-3;

@@ -11,6 +11,9 @@ using Manifold = LocalManifold<double>;
 
 // Normals more parallel than this are the same direction: two faces that lie on each other.
 constexpr double kSameDirection = 1e-3;
+// Of two directions in which corners approach, this share of the greater speed makes them equal.
+constexpr double kEvenly = 0.5;
+constexpr std::uint32_t kNoCorner = 0xff;  // in the place of a corner's number
 
 std::uint32_t after(const Outline& shape, std::uint32_t i) { return i + 1 < shape.count ? i + 1 : 0; }
 
@@ -38,10 +41,10 @@ Manifold over_face(const Outline& reference, std::uint32_t face, const Outline& 
   const Vec2 p = other.vertices[j1], q = other.vertices[j2], edge = q - p;
   const double tp = dot<double>(tangent, p - origin), tq = dot<double>(tangent, q - origin);
   m.normal = flip ? Vec2(-normal) : normal;
-  if (tp < 0.0 || tq > width) return m;
+  if (tp < -kTouchDistance || tq > width + kTouchDistance) return m;
   const double span = tp - tq;
-  const Vec2 ends[2] = {span > 0.0 && tp > width ? Vec2(p + edge * ((tp - width) / span)) : p,
-                        span > 0.0 && tq < 0.0 ? Vec2(p + edge * (tp / span)) : q};
+  const auto point_at = [&](double t) { return Vec2(p + edge * clamp_to((tp - t) / span, 0.0, 1.0)); };
+  const Vec2 ends[2] = {span > 0.0 && tp > width ? point_at(width) : p, span > 0.0 && tq < 0.0 ? point_at(0.0) : q};
   const std::uint32_t corners[2] = {j1, j2};
   for (int i = 0; i < 2; ++i) {
     const double gap = dot<double>(normal, ends[i] - origin);
@@ -109,7 +112,11 @@ class Toucher {
         continue;
       }
       const bool corner = absolute(cross<double>(touch.normal, best.normal)) > kSameDirection;
-      if (corner && min_of(speed, least_approach) <= kRestSpeed) return Touch{};
+      if (corner) {
+        const double most = max_of(speed, least_approach), least = min_of(speed, least_approach);
+        if (most > kRestSpeed && least <= kRestSpeed) return Touch{};  // they pass
+        if (least >= kEvenly * most - kRestSpeed && best.count > 0 && touch.count > 0) return corner_touch(best, touch);
+      }
       if (best.count == 0 || (touch.count > 0 && speed < least_approach - kRestSpeed)) {
         best = touch;
         least_approach = speed;
@@ -134,6 +141,17 @@ class Toucher {
       p.gap = m.points[i].separation;
       p.id = m.points[i].id;
     }
+    return touch;
+  }
+
+  // Corner against corner, with as much reason for one face as for the other: any direction between theirs would do,
+  // and the middle one is the same for a mirrored pair.
+  static Touch corner_touch(const Touch& a, const Touch& b) {
+    Touch touch;
+    touch.normal = (a.normal + b.normal) / length<double>(a.normal + b.normal);
+    touch.points[0] = a.points[0];
+    touch.points[0].id = ManifoldIds::kCorners | kNoCorner;
+    touch.count = 1;
     return touch;
   }
 
