@@ -105,7 +105,7 @@ void run(const Arguments& arguments) {
   settings.time_step = kTimeStep;
   settings.sub_steps = kSubSteps;
   settings.sleeping = scene.sleep;
-  const auto world = expect(urto::World::create(settings, nanoseconds));
+  const auto world = expect(urto::World::create(settings, nanoseconds, static_cast<unsigned>(arguments.threads)));
   std::vector<urto::BodyId> bodies;
   for (const Body& body : scene.bodies) bodies.push_back(add_body(*world, body));
   for (const Revolute& joint : scene.revolutes) add_revolute(*world, scene, bodies, joint);
@@ -124,6 +124,7 @@ void run(const Arguments& arguments) {
     for (std::size_t phase = 0; phase < kPhases; ++phase) phase_sums[phase] += profile.ms[phase];
   }
   report.engine = "urto";
+  report.threads = arguments.threads;
   report.version = BENCH_URTO_VERSION;
   report.scene = scene.name;
   for (const Body& body : scene.bodies) report.bodies += body.kind == BodyKind::kDynamic ? 1 : 0;

@@ -17,8 +17,8 @@
 namespace urto::app {
 namespace {
 
-WorldFactory world_with_clock() {
-  return [](const WorldSettings& settings) { return World::create(settings, &monotonic_ns); };
+WorldFactory world_factory(unsigned threads) {
+  return [threads](const WorldSettings& settings) { return World::create(settings, &monotonic_ns, threads); };
 }
 
 RoomSettings room_settings(const Options& options) {
@@ -91,8 +91,7 @@ sigset_t block_signals() {
   return signals;
 }
 
-int serve(const Options& options, std::unique_ptr<Room> room) {
-  const sigset_t signals = block_signals();
+int serve(const Options& options, std::unique_ptr<Room> room, const sigset_t& signals) {
   auto transport = ZenohTransport::open(zenoh_options(options));
   if (!transport) {
     spdlog::error("{}", transport.error().message);
@@ -123,7 +122,10 @@ int run(int argc, char** argv) {
     return options.error().code;
   }
   set_up_log(*options);
-  auto room = load_room(options->scene_file, room_settings(*options), world_with_clock());
+  // Before the room, which may bring threads of its own.
+  const bool serves = !options->explain_only && !options->check_only;
+  const sigset_t signals = serves ? block_signals() : sigset_t{};
+  auto room = load_room(options->scene_file, room_settings(*options), world_factory(options->threads));
   if (!room) {
     std::fprintf(stderr, "%s\n", room.error().c_str());
     return kExitUsage;
@@ -137,7 +139,7 @@ int run(int argc, char** argv) {
                 (*room)->scene().bodies.size());
     return 0;
   }
-  return serve(*options, std::move(*room));
+  return serve(*options, std::move(*room), signals);
 }
 
 }  // namespace

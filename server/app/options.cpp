@@ -61,6 +61,12 @@ void declare(CLI::App& app, Options& options) {
       ->type_name("SCALE")
       ->capture_default_str()
       ->check(CLI::Range(kTimeScaleMin, kTimeScaleMax));
+  app.add_option(
+         "--threads", options.threads,
+         "Threads that step the room; worth more than 1 from some thousand bodies on, and the results are the same")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::Range(1u, kThreadsMax));
   app.add_flag("--check", options.check_only, "Check the scene and exit");
   app.add_flag("--explain", options.explain_only, "Print what of the engine the scene needs and why, and exit");
   app.add_option("--log-level", options.log_level, "How much is said on stderr")

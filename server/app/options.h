@@ -26,6 +26,7 @@ struct Options {
   bool paused = false;
   bool publish_hash = false;
   double time_scale = 1;
+  unsigned threads = 1;  // that step the world
   bool check_only = false;
   bool explain_only = false;
   std::string log_level = "info";

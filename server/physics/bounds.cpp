@@ -51,27 +51,27 @@ void mark_moved(WorldData<S>& world, Proxy proxy) {
 }
 
 template <class S>
-void refresh_bounds(WorldData<S>& world, std::uint32_t slot) {
+void follow_body(WorldData<S>& world, std::uint32_t slot, std::vector<Proxy>& left) {
   refresh_places(world, slot);
   for (Proxy proxy = world.bodies[slot].first_shape; proxy != kNone; proxy = world.shapes[proxy].next) {
-    Shape<S>& shape = world.shapes[proxy];
-    const Aabb<S> box = swept_bounds(world, proxy).expanded(shape.reach);
-    if (shape.fat.contains(box)) continue;
-    shape.fat = box.expanded(shape.margin);
-    world.broad_phase->move(proxy, shape.fat);
-    mark_moved(world, proxy);
+    const Shape<S>& shape = world.shapes[proxy];
+    if (!shape.fat.contains(swept_bounds(world, proxy).expanded(shape.reach))) left.push_back(proxy);
   }
+}
+
+template <class S>
+void refresh_bounds(WorldData<S>& world, Proxy proxy) {
+  Shape<S>& shape = world.shapes[proxy];
+  shape.fat = swept_bounds(world, proxy).expanded(shape.reach).expanded(shape.margin);
+  world.broad_phase->move(proxy, shape.fat);
+  mark_moved(world, proxy);
 }
 
 template <class S>
 void reset_bounds(WorldData<S>& world, std::uint32_t slot) {
   refresh_places(world, slot);
-  for (Proxy proxy = world.bodies[slot].first_shape; proxy != kNone; proxy = world.shapes[proxy].next) {
-    Shape<S>& shape = world.shapes[proxy];
-    shape.fat = swept_bounds(world, proxy).expanded(shape.reach + shape.margin);
-    world.broad_phase->move(proxy, shape.fat);
-    mark_moved(world, proxy);
-  }
+  for (Proxy proxy = world.bodies[slot].first_shape; proxy != kNone; proxy = world.shapes[proxy].next)
+    refresh_bounds(world, proxy);
 }
 
 template <class S>
@@ -86,11 +86,12 @@ void update_broad_phase(WorldData<S>& world) {
   }
 }
 
-#define URTO_INSTANTIATE(S)                                   \
-  template Aabb<S> swept_bounds(const WorldData<S>&, Proxy);  \
-  template void mark_moved(WorldData<S>&, Proxy);             \
-  template void refresh_bounds(WorldData<S>&, std::uint32_t); \
-  template void reset_bounds(WorldData<S>&, std::uint32_t);   \
+#define URTO_INSTANTIATE(S)                                                     \
+  template Aabb<S> swept_bounds(const WorldData<S>&, Proxy);                    \
+  template void mark_moved(WorldData<S>&, Proxy);                               \
+  template void follow_body(WorldData<S>&, std::uint32_t, std::vector<Proxy>&); \
+  template void refresh_bounds(WorldData<S>&, Proxy);                           \
+  template void reset_bounds(WorldData<S>&, std::uint32_t);                     \
   template void update_broad_phase(WorldData<S>&);
 URTO_INSTANTIATE(float)
 URTO_INSTANTIATE(double)

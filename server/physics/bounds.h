@@ -10,10 +10,14 @@ namespace urto {
 template <class S>
 Aabb<S> swept_bounds(const WorldData<S>& world, Proxy proxy);
 
-// Sets a body's places after it moved and checks its proxies; those that left their fat bounds are moved in the broad
-// phase.
+// Sets a body's places after it moved and appends its proxies that left their fat bounds to `left`. Bodies may be
+// followed side by side.
 template <class S>
-void refresh_bounds(WorldData<S>& world, std::uint32_t slot);
+void follow_body(WorldData<S>& world, std::uint32_t slot, std::vector<Proxy>& left);
+
+// Sets a proxy's fat bounds anew, in the broad phase too.
+template <class S>
+void refresh_bounds(WorldData<S>& world, Proxy proxy);
 
 // Sets a body's places and bounds anew as they should be now, whatever they were.
 template <class S>

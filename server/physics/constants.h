@@ -67,4 +67,9 @@ inline constexpr double kAnchorDistanceMin = 1e-6;  // m
 // reference face does not flicker.
 inline constexpr double kFacePreference = 1e-4;  // m
 
+// Loops shorter than two of these are not worth a second thread: about two microseconds of work each.
+inline constexpr unsigned kBodiesPerShare = 64;
+inline constexpr unsigned kBlocksPerShare = 4;
+inline constexpr unsigned kPairsPerShare = 256;
+
 }  // namespace urto

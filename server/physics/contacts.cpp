@@ -110,37 +110,44 @@ void collide_lanes(const WorldData<S>& world, const ContactBlock<S>& block, cons
 }
 
 template <class S>
+void list_blocks(ContactSet<S>& set) {
+  set.blocks.clear();
+  for (auto& color : set.colors)
+    for (std::size_t i = 0; i < color.blocks.size(); ++i) set.blocks.push_back({&color.blocks[i], &color.rest[i]});
+}
+
+// Leaves the contacts that part now in the lists by member.
+template <class S>
 void update_lanes(WorldData<S>& world) {
-  std::vector<std::uint32_t>& parted = world.scratch.parted;
-  parted.clear();
-  ManifoldLanes<S> manifolds{};
+  list_blocks(world.touching);
+  std::vector<std::vector<std::uint32_t>>& parted = lists_by_member(world);
   const ContactPasses<S>& passes = contact_passes<S>();
-  for (auto& color : world.touching.colors) {
-    for (std::size_t i = 0; i < color.blocks.size(); ++i) {
-      ContactBlock<S>& block = color.blocks[i];
-      ContactBlockRest<S>& rest = color.rest[i];
-      collide_lanes(world, block, rest, manifolds);
-      passes.take(world.motions.data(), manifolds, block, rest);
-      for (std::uint32_t lane = 0; lane < block.count; ++lane)
-        if (manifolds.count[lane] == S(0)) parted.push_back(rest.contact[lane]);
-    }
-  }
+  world.team->share(world.touching.blocks.size(), kBlocksPerShare,
+                    [&](unsigned member, std::size_t begin, std::size_t end) {
+                      ManifoldLanes<S> manifolds{};
+                      for (std::size_t i = begin; i < end; ++i) {
+                        ContactBlock<S>& block = *world.touching.blocks[i].block;
+                        ContactBlockRest<S>& rest = *world.touching.blocks[i].rest;
+                        collide_lanes(world, block, rest, manifolds);
+                        passes.take(world.motions.data(), manifolds, block, rest);
+                        for (std::uint32_t lane = 0; lane < block.count; ++lane)
+                          if (manifolds.count[lane] == S(0)) parted[member].push_back(rest.contact[lane]);
+                      }
+                    });
   world.touching.current = true;
 }
 
 // They join the contacts that do not touch, with an event if they had touched.
 template <class S>
-void release_parted(WorldData<S>& world) {
-  for (std::uint32_t slot : world.scratch.parted) {
-    release_lane(world, slot);
-    Contact<S>& c = world.contacts[slot];
-    c.count = 0;
-    c.nx = c.ny = S(0);
-    c.points[0] = c.points[1] = ManifoldPoint<S>{};
-    if (!c.touching()) continue;
-    c.flags ^= kContactTouching;
-    world.events.push_back(end_event(world, c));
-  }
+void release_parted(WorldData<S>& world, std::uint32_t slot) {
+  release_lane(world, slot);
+  Contact<S>& c = world.contacts[slot];
+  c.count = 0;
+  c.nx = c.ny = S(0);
+  c.points[0] = c.points[1] = ManifoldPoint<S>{};
+  if (!c.touching()) return;
+  c.flags ^= kContactTouching;
+  world.events.push_back(end_event(world, c));
 }
 
 // Contacts without a lane ----------------------------------------------------------------------------------------
@@ -189,45 +196,44 @@ S approach_speed(const WorldData<S>& world, const Contact<S>& c) {
   return max_of(S(0), -(vx * c.nx + vy * c.ny));
 }
 
-// Looks at what does not touch yet: `parted` get what has left the other's bounds, `met` what has a manifold now.
-template <class S>
-class ActiveContacts {
- public:
-  explicit ActiveContacts(WorldData<S>& world)
-      : world_(world), lanes_(world.settings.solver == SolverKind::kSoftStep) {}
+enum Finding : std::uint8_t { kApart, kParted, kMet };
 
-  void update() {
-    world_.scratch.parted.clear();
-    world_.scratch.met.clear();
-    for (std::size_t i = 0; i < world_.active.size(); ++i) look_at(world_.active[i]);
+// Looks at contacts that do not touch yet, and notes what it finds by their index: kParted what has left the other's
+// bounds, kMet what has a manifold now. Several may look at different contacts side by side.
+template <class S>
+class Lookout {
+ public:
+  explicit Lookout(WorldData<S>& world) : world_(world), lanes_(world.settings.solver == SolverKind::kSoftStep) {}
+
+  void look_at(std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) look_at(static_cast<std::uint32_t>(i));
     flush(boxes_);
     flush(polygons_);
-    for (std::uint32_t slot : world_.scratch.parted) destroy_contact(world_, slot);
-    wake_and_insert();
   }
 
  private:
-  void look_at(const ActiveContact& active) {
+  void look_at(std::uint32_t index) {
+    const ActiveContact& active = world_.active[index];
     if (!world_.shapes[active.shape_a].fat.overlaps(world_.shapes[active.shape_b].fat)) {
-      world_.scratch.parted.push_back(active.contact);
+      world_.scratch.findings[index] = kParted;
       return;
     }
     const PairKind kind = pair_kind(world_.places[active.shape_a], world_.places[active.shape_b]);
-    if (!lanes_ || active.sensor || kind == PairKind::kGeneral) return update_one(active.contact);
-    add(active, kind == PairKind::kBoxes ? boxes_ : polygons_);
+    if (!lanes_ || active.sensor || kind == PairKind::kGeneral) return update_one(index);
+    add(index, kind == PairKind::kBoxes ? boxes_ : polygons_);
   }
 
   // What a kernel may take is looked at side by side.
   struct Batch {
     PairKind kind;
     std::uint32_t count = 0;
-    std::uint32_t a[kLanes<S>] = {}, b[kLanes<S>] = {}, contact[kLanes<S>] = {};
+    std::uint32_t a[kLanes<S>] = {}, b[kLanes<S>] = {}, index[kLanes<S>] = {};
   };
 
-  void add(const ActiveContact& active, Batch& batch) {
-    batch.a[batch.count] = active.shape_a;
-    batch.b[batch.count] = active.shape_b;
-    batch.contact[batch.count] = active.contact;
+  void add(std::uint32_t index, Batch& batch) {
+    batch.a[batch.count] = world_.active[index].shape_a;
+    batch.b[batch.count] = world_.active[index].shape_b;
+    batch.index[batch.count] = index;
     if (++batch.count == static_cast<std::uint32_t>(kLanes<S>)) flush(batch);
   }
 
@@ -235,35 +241,20 @@ class ActiveContacts {
     if (batch.count == 0) return;
     collide_side_by_side(world_, batch.kind, batch.a, batch.b, manifolds_);
     for (std::uint32_t lane = 0; lane < batch.count; ++lane) {
-      if (manifolds_.count[lane] > S(0)) met(batch.contact[lane]);
-      if (manifolds_.count[lane] == S(kAskGeneral)) update_one(batch.contact[lane]);
+      if (manifolds_.count[lane] > S(0)) world_.scratch.findings[batch.index[lane]] = kMet;
+      if (manifolds_.count[lane] == S(kAskGeneral)) update_one(batch.index[lane]);
     }
     batch.count = 0;
   }
 
-  void update_one(std::uint32_t slot) {
-    Contact<S>& c = world_.contacts[slot];
+  void update_one(std::uint32_t index) {
+    Contact<S>& c = world_.contacts[world_.active[index].contact];
     if (world_.settings.solver == SolverKind::kThesis && !c.sensor())
       return;  // it looks for itself, in every sub-iteration
     update_manifold(world_, c);
     if (c.count == 0) return;
     if (!c.touching()) c.approach = approach_speed(world_, c);
-    if (!c.sensor()) met(slot);
-  }
-
-  void met(std::uint32_t slot) { world_.scratch.met.push_back(slot); }
-
-  // After the loop: waking makes further contacts active.
-  void wake_and_insert() {
-    for (std::uint32_t slot : world_.scratch.met) {
-      Contact<S>& c = world_.contacts[slot];
-      c.count = c.count > 0 ? c.count : 1;  // which it is, the lane will know
-      if (lanes_) give_lane(world_, slot);
-    }
-    for (std::uint32_t slot : world_.scratch.met) {
-      for (std::uint32_t body : {world_.contacts[slot].body_a, world_.contacts[slot].body_b})
-        if (!world_.bodies[body].awake() && world_.bodies[body].dynamic()) wake_body(world_, body);
-    }
+    if (!c.sensor()) world_.scratch.findings[index] = kMet;
   }
 
   WorldData<S>& world_;
@@ -271,6 +262,36 @@ class ActiveContacts {
   Batch boxes_{PairKind::kBoxes}, polygons_{PairKind::kPolygons};
   ManifoldLanes<S> manifolds_{};
 };
+
+template <class S>
+void find_met_and_parted(WorldData<S>& world) {
+  Scratch<S>& scratch = world.scratch;
+  scratch.findings.assign(world.active.size(), kApart);
+  world.team->share(world.active.size(), kPairsPerShare,
+                    [&](unsigned, std::size_t begin, std::size_t end) { Lookout<S>(world).look_at(begin, end); });
+  scratch.parted.clear();
+  scratch.met.clear();
+  for (std::size_t i = 0; i < world.active.size(); ++i) {
+    if (scratch.findings[i] == kParted) scratch.parted.push_back(world.active[i].contact);
+    if (scratch.findings[i] == kMet) scratch.met.push_back(world.active[i].contact);
+  }
+}
+
+// Waking comes last: it makes further contacts active.
+template <class S>
+void update_active(WorldData<S>& world) {
+  find_met_and_parted(world);
+  for (std::uint32_t slot : world.scratch.parted) destroy_contact(world, slot);
+  for (std::uint32_t slot : world.scratch.met) {
+    Contact<S>& c = world.contacts[slot];
+    c.count = c.count > 0 ? c.count : 1;  // which it is, the lane will know
+    if (world.settings.solver == SolverKind::kSoftStep) give_lane(world, slot);
+  }
+  for (std::uint32_t slot : world.scratch.met) {
+    for (std::uint32_t body : {world.contacts[slot].body_a, world.contacts[slot].body_b})
+      if (!world.bodies[body].awake() && world.bodies[body].dynamic()) wake_body(world, body);
+  }
+}
 
 // Events ---------------------------------------------------------------------------------------------------------
 
@@ -354,9 +375,10 @@ S reach_of(const Place<S>& a, const Place<S>& b) {
 
 template <class S>
 void update_contacts(WorldData<S>& world) {
-  ActiveContacts<S>(world).update();
+  update_active(world);
   update_lanes(world);
-  release_parted(world);
+  for (const auto& parted : world.scratch.by_member)
+    for (std::uint32_t slot : parted) release_parted(world, slot);
 }
 
 template <class S>

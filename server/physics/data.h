@@ -17,6 +17,7 @@
 #include "physics/pair_set.h"
 #include "physics/places.h"
 #include "physics/shape.h"
+#include "physics/team.h"
 #include "physics/world.h"
 
 namespace urto {
@@ -33,10 +34,12 @@ struct Scratch {
   std::vector<std::pair<Proxy, Proxy>> pairs;
   std::vector<Proxy> proxies;
   std::vector<std::uint32_t> stack;
-  std::vector<std::uint32_t> parent;       // union-find, by awake index
-  std::vector<std::uint8_t> restless;      // by root
-  std::vector<std::uint32_t> fast;         // body slots
-  std::vector<std::uint32_t> parted, met;  // contact slots
+  std::vector<std::uint32_t> parent;                  // union-find, by awake index
+  std::vector<std::uint8_t> restless;                 // by root
+  std::vector<std::uint32_t> fast;                    // body slots
+  std::vector<std::uint32_t> parted, met;             // contact slots
+  std::vector<std::uint8_t> findings;                 // by index of active contact
+  std::vector<std::vector<std::uint32_t>> by_member;  // of the team
 };
 
 template <class S>
@@ -67,6 +70,8 @@ struct WorldData {
   ContactSet<S> touching;        // the lanes of contacts with an awake body that touch
   std::vector<Place<S>> places;  // by shape slot: as of the start of the step, or of falling asleep
   PairSet pair_set;
+
+  std::shared_ptr<Team> team = std::make_shared<Team>(1);
 
   // The first `events_reported` are those of the last step; the rest came since (of bodies that were removed) and will
   // be those of the next.
@@ -102,6 +107,14 @@ struct WorldData {
     visit(3u, "active_joints", self.active_joints);
   }
 };
+
+// A list for each member of the team, empty.
+template <class S>
+std::vector<std::vector<std::uint32_t>>& lists_by_member(WorldData<S>& world) {
+  world.scratch.by_member.resize(world.team->size());
+  for (auto& list : world.scratch.by_member) list.clear();
+  return world.scratch.by_member;
+}
 
 inline BodyId id_of(std::uint32_t slot, std::uint32_t generation) {
   return (static_cast<BodyId>(generation) << 32) | (slot + 1);

@@ -33,6 +33,7 @@ inline constexpr std::uint32_t kPolygonVerticesMax = 8;  // of one convex shape 
 inline constexpr std::uint32_t kChainVerticesMax = 4096;
 inline constexpr std::uint32_t kForceFieldsMax = 16;
 inline constexpr std::uint32_t kSubStepsMax = 64;
+inline constexpr unsigned kThreadsMax = 64;
 inline constexpr double kTimeStepMax = 0.1;      // s
 inline constexpr double kCoordinateMax = 1e7;    // m
 inline constexpr double kSpeedMax = 1e6;         // m/s an axis: what is set is checked, motion saturates

@@ -259,6 +259,7 @@ Status restore_state(WorldData<S>& world, std::span<const std::byte> block) {
     in.array(field);
   });
   if (!in.complete()) return corrupt("payload", "the state does not hold what its version should");
+  fresh.team = world.team;
   rebuild(fresh, lanes);
   world = std::move(fresh);
   return {};

@@ -65,15 +65,18 @@ const char* phase_name(Phase phase) {
   return "";
 }
 
-Expected<std::unique_ptr<World>> World::create(const WorldSettings& settings, Clock clock) {
+Expected<std::unique_ptr<World>> World::create(const WorldSettings& settings, Clock clock, unsigned threads) {
   if (Status status = check_settings(settings); !status) return tl::unexpected<Error>(status.error());
-  if (settings.precision == Precision::kDouble) return std::make_unique<WorldOf<double>>(settings, clock);
-  return std::make_unique<WorldOf<float>>(settings, clock);
+  if (threads < 1 || threads > kThreadsMax)
+    return failure(ErrorCode::kInvalidValue, "threads", std::to_string(threads), "threads must be between 1 and 64");
+  if (settings.precision == Precision::kDouble) return std::make_unique<WorldOf<double>>(settings, clock, threads);
+  return std::make_unique<WorldOf<float>>(settings, clock, threads);
 }
 
 template <class S>
-WorldOf<S>::WorldOf(const WorldSettings& settings, Clock clock) : clock_(clock) {
+WorldOf<S>::WorldOf(const WorldSettings& settings, Clock clock, unsigned threads) : clock_(clock) {
   data_.settings = settings;
+  data_.team = std::make_shared<Team>(threads);
   update_model(data_);
 }
 
@@ -127,10 +130,16 @@ void WorldOf<S>::solve() {
 template <class S>
 void WorldOf<S>::finish_motions() {
   const S time_step = S(data_.settings.time_step);
-  for (std::uint32_t slot : data_.awake) {
-    finish_motion(data_.bodies[slot], data_.motions[slot], time_step);
-    refresh_bounds(data_, slot);
-  }
+  std::vector<std::vector<Proxy>>& left = lists_by_member(data_);
+  data_.team->share(data_.awake.size(), kBodiesPerShare, [&](unsigned member, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t slot = data_.awake[i];
+      finish_motion(data_.bodies[slot], data_.motions[slot], time_step);
+      follow_body(data_, slot, left[member]);
+    }
+  });
+  for (const std::vector<Proxy>& proxies : left)
+    for (Proxy proxy : proxies) refresh_bounds(data_, proxy);
   for (std::uint32_t slot : data_.scratch.fast) reset_bounds(data_, slot);
   data_.scratch.fast.clear();
 }

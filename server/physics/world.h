@@ -119,8 +119,10 @@ using Clock = std::uint64_t (*)();
 
 class World {
  public:
+  // Steps with so many threads, the caller's among them (1 to kThreadsMax); results do not depend on it.
   // Errors: kInvalidValue for a setting outside its range.
-  static Expected<std::unique_ptr<World>> create(const WorldSettings& settings, Clock clock = nullptr);
+  static Expected<std::unique_ptr<World>> create(const WorldSettings& settings, Clock clock = nullptr,
+                                                 unsigned threads = 1);
   virtual ~World() = default;
 
   virtual const WorldSettings& settings() const = 0;

@@ -11,7 +11,7 @@ namespace urto {
 template <class S>
 class WorldOf final : public World {
  public:
-  WorldOf(const WorldSettings& settings, Clock clock);
+  WorldOf(const WorldSettings& settings, Clock clock, unsigned threads);
 
   const WorldSettings& settings() const override { return data_.settings; }
 

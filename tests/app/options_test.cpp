@@ -30,7 +30,8 @@ TEST(Options, AllOfThem) {
   const auto options = parsed({"--scene",      "a",       "--room",          "lab",    "--listen", "0.0.0.0:1",
                                "--listen",     "tls/h:2", "--control",       "owners", "--owner",  "ann",
                                "--owner",      "bob",     "--snapshot-rate", "20",     "--paused", "--publish-hash",
-                               "--time-scale", "0.5",     "--log-level",     "debug",  "--users",  "u.txt"});
+                               "--time-scale", "0.5",     "--log-level",     "debug",  "--users",  "u.txt",
+                               "--threads",    "2"});
   ASSERT_TRUE(options) << options.error().text;
   EXPECT_EQ(options->room, "lab");
   EXPECT_THAT(options->listen, ElementsAre("tcp/0.0.0.0:1", "tls/h:2"));
@@ -40,6 +41,7 @@ TEST(Options, AllOfThem) {
   EXPECT_TRUE(options->paused);
   EXPECT_TRUE(options->publish_hash);
   EXPECT_EQ(options->time_scale, 0.5);
+  EXPECT_EQ(options->threads, 2u);
   EXPECT_EQ(options->log_level, "debug");
   EXPECT_EQ(options->users_file, "u.txt");
 }
@@ -58,6 +60,8 @@ TEST(Options, WrongOnesExitWithTwo) {
       {{"--scene", "a", "--owner", "ann"}, "--control"},
       {{"--scene", "a", "--snapshot-rate", "0"}, "--snapshot-rate"},
       {{"--scene", "a", "--time-scale", "1000"}, "--time-scale"},
+      {{"--scene", "a", "--threads", "0"}, "--threads"},
+      {{"--scene", "a", "--threads", "65"}, "--threads"},
       {{"--scene", "a", "--users", "f", "--connect", "h:1"}, "exclude"},
       {{"--scene", "a", "--magic"}, "--magic"},
   };

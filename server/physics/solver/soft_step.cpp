@@ -20,19 +20,26 @@ bool flies(const WorldData<S>& world, std::uint32_t slot) {
 
 template <class S>
 void integrate_velocities(WorldData<S>& world, const Mover<S>& mover) {
-  for (std::uint32_t slot : world.awake)
-    if (!flies(world, slot)) mover.integrate_velocity(world.bodies[slot], world.motions[slot]);
+  world.team->share(world.awake.size(), kBodiesPerShare, [&](unsigned, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t slot = world.awake[i];
+      if (!flies(world, slot)) mover.integrate_velocity(world.bodies[slot], world.motions[slot]);
+    }
+  });
 }
 
 template <class S>
 void integrate_positions(WorldData<S>& world, const Mover<S>& mover) {
-  for (std::uint32_t slot : world.awake) {
-    if (flies(world, slot)) {
-      mover.fly(world.bodies[slot], world.motions[slot]);
-    } else {
-      mover.integrate_position(world.bodies[slot], world.motions[slot]);
+  world.team->share(world.awake.size(), kBodiesPerShare, [&](unsigned, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t slot = world.awake[i];
+      if (flies(world, slot)) {
+        mover.fly(world.bodies[slot], world.motions[slot]);
+      } else {
+        mover.integrate_position(world.bodies[slot], world.motions[slot]);
+      }
     }
-  }
+  });
 }
 
 template <class S>
@@ -47,6 +54,18 @@ PassSettings<S> pass_settings(const WorldData<S>& world, S h) {
           world.model.friction};
 }
 
+// Colour after colour; the blocks of one are shared out. Those that fit no colour are solved one after the other.
+template <class S, class Work>
+void for_each_color(WorldData<S>& world, const Work& work) {
+  for (std::uint32_t i = 0; i < kColorsMax; ++i) {
+    auto& color = world.touching.colors[i];
+    if (color.blocks.empty()) continue;
+    const std::size_t grain = takes_what_fits_nowhere(i) ? color.blocks.size() : kBlocksPerShare;
+    world.team->share(color.blocks.size(), grain,
+                      [&](unsigned, std::size_t begin, std::size_t end) { work(color, begin, end); });
+  }
+}
+
 }  // namespace
 
 template <class S>
@@ -57,8 +76,9 @@ void solve_soft_step(WorldData<S>& world, JointSet<S>& joint_set) {
   const PassSettings<S> settings = pass_settings(world, h);
   const ContactPasses<S>& passes = contact_passes<S>();
   const auto run = [&](typename ContactPasses<S>::Pass pass) {
-    for (auto& color : world.touching.colors)
-      if (!color.blocks.empty()) pass(world.motions.data(), color.blocks.data(), color.blocks.size(), settings);
+    for_each_color(world, [&](auto& color, std::size_t begin, std::size_t end) {
+      pass(world.motions.data(), &color.blocks[begin], end - begin, settings);
+    });
   };
   JointPasses<S> joints(world, joint_set, h);
   for (std::uint32_t i = 0; i < n; ++i) {
@@ -73,9 +93,9 @@ void solve_soft_step(WorldData<S>& world, JointSet<S>& joint_set) {
   }
   joints.store();
   if (!world.model.restitution) return;
-  for (auto& color : world.touching.colors)
-    if (!color.blocks.empty())
-      passes.restitute(world.motions.data(), color.blocks.data(), color.rest.data(), color.blocks.size(), settings);
+  for_each_color(world, [&](auto& color, std::size_t begin, std::size_t end) {
+    passes.restitute(world.motions.data(), &color.blocks[begin], &color.rest[begin], end - begin, settings);
+  });
 }
 
 template void solve_soft_step(WorldData<float>&, JointSet<float>&);

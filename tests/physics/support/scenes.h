@@ -54,10 +54,11 @@ inline std::vector<BodyId> add_stack(World& world, int count) {
 }
 
 // Rows of unit boxes: as many at the bottom as there are rows.
-inline std::vector<BodyId> add_pyramid(World& world, int rows) {
+inline std::vector<BodyId> add_pyramid(World& world, int rows, double x = 0) {
   std::vector<BodyId> ids;
   for (int i = 0; i < rows; ++i)
-    for (int j = i; j < rows; ++j) ids.push_back(add(world, box_body(0.5 * (i + 1) + (j - i) - 0.5 * rows, i + 0.5)));
+    for (int j = i; j < rows; ++j)
+      ids.push_back(add(world, box_body(x + 0.5 * (i + 1) + (j - i) - 0.5 * rows, i + 0.5)));
   return ids;
 }
 
