@@ -54,35 +54,6 @@ def _pipes(head: list[str], lines: list[list[str]]) -> list[str]:
     return ["| " + " | ".join(row) + " |" for row in [head, ["---"] + ["---:"] * (len(head) - 1), *lines]]
 
 
-def _accuracy_cells(result: Result) -> tuple[list[str], list[list[str]]]:
-    engines: list[str] = []
-    for by_engine in result["cases"].values():
-        engines += [name for name in by_engine if name not in engines]
-    lines = []
-    for case, by_engine in result["cases"].items():
-        figures: list[str] = []
-        for row in by_engine.values():
-            figures += [name for name in row if name not in figures] if isinstance(row, dict) else []
-        for figure in figures:
-            line = [f"{case}: {figure}"]
-            for engine in engines:
-                row = by_engine[engine]
-                line.append(f"{row[figure]:.4g}" if isinstance(row, dict) else row.split(":")[0])
-            lines.append(line)
-    return ["case", *engines], lines
-
-
-def accuracy_table(result: Result) -> str:
-    return _aligned(*_accuracy_cells(result))
-
-
-def accuracy_markdown(result: Result) -> str:
-    head, lines = _accuracy_cells(result)
-    title = "Errors at each engine's defaults, float, time step 1/60 s, 4 sub-steps (bench/accuracy.py has the cases)."
-    about = f"{result['started']}; commit {result['machine']['commit']}."
-    return "\n".join([title, "", *_pipes(head, lines), "", about]) + "\n"
-
-
 def _versions(result: Result) -> str:
     versions = {}
     for rows in result["scenes"].values():

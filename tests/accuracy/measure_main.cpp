@@ -1,9 +1,10 @@
 // Measures a case in one engine and prints a line of JSON.
 //
 //   accuracy_ENGINE --list                                the cases: row, names, levels
-//   accuracy_ENGINE CASE METHOD [--runs N]                the error, and the least CPU time of N runs
-//   accuracy_ENGINE --check                               every level: one line each of those that are not met
-//   … --simd NAME                                         the instruction set, e.g. AVX2 (Urto)
+//   accuracy_ENGINE CASE METHOD [--runs N] [--budget S]   the error, and the least CPU time of N runs, fewer after S
+//   seconds accuracy_ENGINE --rectangles N METHOD --steps N       what a step with so many rectangles takes, and how
+//   they overlap accuracy_ENGINE --check                               every level: one line each of those that are not
+//   met … --simd NAME                                         the instruction set, e.g. AVX2 (Urto)
 
 #include <time.h>
 
@@ -18,10 +19,13 @@
 #include "accuracy/case.h"
 #include "accuracy/engine.h"
 #include "accuracy/method_text.h"
+#include "accuracy/rectangles.h"
 #include "physics/solver/contact_kernels.h"
 
 namespace urto::accuracy {
 namespace {
+
+constexpr int kOverlapCountMax = 2000;  // beyond, looking at all pairs would take longer than the steps
 
 // Of the whole program: with several threads, of all of them.
 double cpu_seconds() {
@@ -65,12 +69,20 @@ void print_list() {
   }
 }
 
-void measure(const Case& a_case, const Method& method, int runs) {
+struct Effort {
+  int runs = 1;
+  double budget_s = std::numeric_limits<double>::infinity();
+};
+
+void measure(const Case& a_case, const Method& method, const Effort& effort) {
   std::string head = std::string("{\"engine\":") + quoted(engine_name()) + ",\"version\":" + quoted(engine_version()) +
                      ",\"case\":" + quoted(a_case.name) + ",\"method\":" + quoted(method.name);
   double error = 0, cost = std::numeric_limits<double>::infinity();
+  const double start = cpu_seconds();
+  int runs = 0;
   try {
-    for (int run = 0; run < runs; ++run) {
+    while (runs == 0 || (runs < effort.runs && cpu_seconds() - start < effort.budget_s)) {
+      ++runs;
       Lab lab(make_engine, method, cpu_seconds);
       error = error_of(a_case, lab);
       cost = std::min(cost, lab.cpu_seconds() / lab.simulated_seconds());
@@ -81,6 +93,23 @@ void measure(const Case& a_case, const Method& method, int runs) {
   }
   std::printf("%s,\"error\":%s,\"cpu_s_per_s\":%s,\"runs\":%d}\n", head.c_str(), number(error).c_str(),
               number(cost).c_str(), runs);
+}
+
+// Overlap: of the deepest pair, the mean of four looks over the second half.
+void measure_rectangles(int count, const Method& method, int steps) {
+  Lab lab(make_engine, method, cpu_seconds);
+  Run run(lab, rectangles(count));
+  run.steps(steps / 2);
+  double overlap = 0;
+  constexpr int kLooks = 4;
+  for (int look = 0; look < kLooks; ++look) {
+    run.steps(steps / 2 / kLooks);
+    if (count <= kOverlapCountMax) overlap += run.overlap_max() / kLooks;
+  }
+  const double step_ms = 1e3 * lab.cpu_seconds() / (lab.simulated_seconds() / run.time_step());
+  std::printf("{\"engine\":%s,\"method\":%s,\"rectangles\":%d,\"steps\":%d,\"step_ms\":%s,\"overlap\":%s}\n",
+              quoted(engine_name()).c_str(), quoted(method.name).c_str(), count, steps, number(step_ms).c_str(),
+              count <= kOverlapCountMax ? number(overlap).c_str() : "null");
 }
 
 // As tests/accuracy/expected_failures.txt has them.
@@ -113,33 +142,52 @@ void choose_simd(const std::string& name) {
   throw std::invalid_argument("this machine has no " + name + " but" + known);
 }
 
-int run(const std::vector<std::string>& words) {
+struct Arguments {
   std::vector<std::string> names;
-  int runs = 1;
-  bool list = false, checking = false, with_long = false;
+  Effort effort;
+  int rectangles = 0, steps = 240;
+  bool list = false, check = false, with_long = false;
+};
+
+Arguments parse(const std::vector<std::string>& words) {
+  Arguments out;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words[i] == "--runs") {
-      runs = std::stoi(words.at(++i));
+      out.effort.runs = std::stoi(words.at(++i));
+    } else if (words[i] == "--budget") {
+      out.effort.budget_s = std::stod(words.at(++i));
+    } else if (words[i] == "--rectangles") {
+      out.rectangles = std::stoi(words.at(++i));
+    } else if (words[i] == "--steps") {
+      out.steps = std::stoi(words.at(++i));
     } else if (words[i] == "--simd") {
       choose_simd(words.at(++i));
     } else if (words[i] == "--list") {
-      list = true;
+      out.list = true;
     } else if (words[i] == "--check") {
-      checking = true;
+      out.check = true;
     } else if (words[i] == "--long") {
-      with_long = true;
+      out.with_long = true;
     } else {
-      names.push_back(words[i]);
+      out.names.push_back(words[i]);
     }
   }
-  if (list) {
+  return out;
+}
+
+int run(const std::vector<std::string>& words) {
+  const Arguments arguments = parse(words);
+  const std::vector<std::string>& names = arguments.names;
+  if (arguments.list) {
     print_list();
-  } else if (checking) {
-    check(with_long);
+  } else if (arguments.check) {
+    check(arguments.with_long);
+  } else if (arguments.rectangles > 0 && names.size() == 1) {
+    measure_rectangles(arguments.rectangles, method_from(names[0]), arguments.steps);
   } else if (names.size() == 2 && find_case(names[0])) {
-    measure(*find_case(names[0]), method_from(names[1]), runs);
+    measure(*find_case(names[0]), method_from(names[1]), arguments.effort);
   } else {
-    throw std::invalid_argument("usage: CASE METHOD [--runs N] [--simd NAME], --list, or --check [--long]");
+    throw std::invalid_argument("no such case, or nothing to do; the head of measure_main.cpp says how");
   }
   return 0;
 }
