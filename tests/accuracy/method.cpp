@@ -65,6 +65,7 @@ Method method_of(Profile profile) {
       return of_integrator(profile, Integrator::kRungeKutta4);
     case Profile::kPrecise: {
       Method method = of_integrator(profile, Integrator::kVerlet);
+      method.solver = SolverKind::kPrecise;
       method.restitution_threshold = kPreciseRestitutionThreshold;
       return method;
     }

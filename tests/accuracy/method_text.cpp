@@ -22,7 +22,9 @@ void set(Method& method, const std::string& key, const std::string& value) {
   } else if (key == "precision") {
     method.precision = chosen<Precision>({{"float", Precision::kFloat}, {"double", Precision::kDouble}}, value);
   } else if (key == "solver") {
-    method.solver = chosen<SolverKind>({{"soft_step", SolverKind::kSoftStep}, {"thesis", SolverKind::kThesis}}, value);
+    method.solver = chosen<SolverKind>(
+        {{"soft_step", SolverKind::kSoftStep}, {"thesis", SolverKind::kThesis}, {"precise", SolverKind::kPrecise}},
+        value);
   } else if (key == "integrator") {
     method.integrator = chosen<Integrator>({{"explicit_euler", Integrator::kExplicitEuler},
                                             {"semi_implicit_euler", Integrator::kSemiImplicitEuler},
