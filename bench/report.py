@@ -63,7 +63,7 @@ def by_case(records: Sequence[Record]) -> dict[str, list[Record]]:
 
 
 def level_ratios(cases: Sequence[Record], results: dict[str, list[Record]]) -> dict[str, list[float]]:
-    """Engine → error over the default profile's level, case by case. Cases that an engine lacks something for don't count."""
+    """Engine → error over the default profile's level, case by case, but for those that it lacks something for."""
     ratios: dict[str, list[float]] = {}
     for case in cases:
         level = case["levels"].get(plan.DEFAULT)
@@ -94,7 +94,7 @@ def whole_points(cases: Sequence[Record], results: dict[str, list[Record]]) -> l
         return []
     most = max(len(values) for values in found.values())
     return [
-        (curve, 100 * sum(not met for met, _ in values) / len(values), pages.geometric_mean([cost for _, cost in values]))
+        (curve, 100 * sum(not met for met, _ in values) / len(values), pages.geometric_mean([time for _, time in values]))
         for (curve, _, _), values in found.items()
         if len(values) >= 0.8 * most
     ]
@@ -103,7 +103,9 @@ def whole_points(cases: Sequence[Record], results: dict[str, list[Record]]) -> l
 # ---- writing ----
 
 
-def draw_all(out: Path, cases: Sequence[Record], results: dict[str, list[Record]]) -> tuple[list[int], dict[str, float]]:
+def draw_all(
+    out: Path, cases: Sequence[Record], results: dict[str, list[Record]]
+) -> tuple[list[int], dict[str, float]]:
     drawn, orders = [], {}
     for row in dict.fromkeys(case["row"] for case in cases):
         of_row = [
@@ -130,9 +132,10 @@ def accuracy_page(
     lines = [
         "# Accuracy beside other engines",
         "",
-        "Every hard case (docs/accuracy.md says what they are) in Urto's profiles and in the peers at the same time step and "
-        "sub-steps. ✓ and ✗ stand before the level; – marks what an engine lacks. The peers' figures are for float but for "
-        "Chipmunk's, which computes in double; its library is Debian's, which has assertions on and is slower for it.",
+        "Every hard case ([what they are](../accuracy.md)) in Urto's profiles and in the peers at the same time step and "
+        "sub-steps. ✓ and ✗ stand before the level; – marks what an engine lacks. The peers' figures are for float "
+        "but for Chipmunk's, which computes in double; its library is Debian's, which has assertions on and is slower for it. "
+        "Chipmunk has no continuous collision.",
         "",
         f"Levels that Urto meets: default {met[plan.DEFAULT][0]} of {met[plan.DEFAULT][1]}, "
         f"precise {met[plan.PRECISE][0]} of {met[plan.PRECISE][1]}.",
@@ -155,8 +158,8 @@ def accuracy_page(
         "",
         "## Error against time, row by row",
         "",
-        "Left and down is better. Dotted lines are levels; crosses at the right edge are runs that ended in no number; errors "
-        f"of zero are drawn at {diagrams.ERROR_MIN:g}. Time is the processor's, the least of several runs.",
+        "Left and down is better. Dotted lines are levels; crosses at the right edge are runs that ended in no number; "
+        f"errors of zero are drawn at {diagrams.ERROR_MIN:g}. Time is the processor's, the least of several runs.",
         "",
     ]
     return lines + [f"![Row {row}](diagrams/row_{row:02}.svg)\n" for row in drawn]
@@ -166,10 +169,10 @@ def rectangles_page(stages: Sequence[Record], errors: dict[str, list[Record]]) -
     return [
         "# How many rectangles run at 60 Hz",
         "",
-        "The question of the thesis that Urto began with, for its method and for each step towards Urto's. Rectangles fall into "
-        "a box and bounce, none sleeps; the figure is where the mean step takes a sixtieth of a second of one processor. "
-        "Urto's implementation of the thesis's method always looks at bounds first. The errors are those of docs/accuracy.md's cases "
-        "by the same method.",
+        "The question of the thesis that Urto began with, for its method and for each step towards Urto's. Rectangles "
+        "fall into a box and bounce, none sleeps; the figure is where the mean step takes a sixtieth of a second of one "
+        "processor. Urto's implementation of the thesis's method always looks at bounds first. The errors are those of "
+        "[the hard cases](../accuracy.md) by the same method.",
         "",
         *pages.rectangles_page(stages, errors),
         "",

@@ -70,7 +70,8 @@ def _draw_case(axes: Axes, case: Record, records: Sequence[Record]) -> None:
             axes.plot([worst] * len(failed), [r["cpu_s_per_s"] for r in failed], "x", color=color, markersize=8)
     for profile, level in case["levels"].items():
         if profile in ("default", "precise"):
-            axes.axvline(max(level, ERROR_MIN), color="#d62728" if profile == "default" else "#9467bd", alpha=0.5, ls=":")
+            color = _style(profile)["color"]
+            axes.axvline(max(level, ERROR_MIN), color=color, alpha=0.5, linestyle=":")
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_title(case["case"], fontsize=9)
@@ -143,7 +144,8 @@ def draw_rectangles(path: Path, stages: Sequence[Record], frame_ms: float) -> No
         points = [(record["rectangles"], record["step_ms"]) for record in stage["curve"]]
         if points:
             style = "--" if "thesis" in stage["method"] else "-"
-            axes.loglog(*zip(*points), marker="o", markersize=4, linestyle=style, label=stage["stage"], color=f"C{number}")
+            look = {"marker": "o", "markersize": 4, "linestyle": style, "color": f"C{number}"}
+            axes.loglog(*zip(*points), label=stage["stage"], **look)
     axes.axhline(frame_ms, color="black", linewidth=0.8)
     axes.text(25, frame_ms * 1.1, "a frame at 60 Hz", fontsize=8)
     axes.set_xlabel("rectangles")

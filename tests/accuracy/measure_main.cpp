@@ -20,6 +20,7 @@
 #include "accuracy/engine.h"
 #include "accuracy/method_text.h"
 #include "accuracy/rectangles.h"
+#include "accuracy/replay.h"
 #include "physics/solver/contact_kernels.h"
 
 namespace urto::accuracy {
@@ -146,7 +147,7 @@ struct Arguments {
   std::vector<std::string> names;
   Effort effort;
   int rectangles = 0, steps = 240;
-  bool list = false, check = false, with_long = false;
+  bool list = false, check = false, with_long = false, replay = false;
 };
 
 Arguments parse(const std::vector<std::string>& words) {
@@ -166,6 +167,8 @@ Arguments parse(const std::vector<std::string>& words) {
       out.list = true;
     } else if (words[i] == "--check") {
       out.check = true;
+    } else if (words[i] == "--replay") {
+      out.replay = true;
     } else if (words[i] == "--long") {
       out.with_long = true;
     } else {
@@ -184,6 +187,8 @@ int run(const std::vector<std::string>& words) {
     check(arguments.with_long);
   } else if (arguments.rectangles > 0 && names.size() == 1) {
     measure_rectangles(arguments.rectangles, method_from(names[0]), arguments.steps);
+  } else if (names.size() == 2 && find_case(names[0]) && arguments.replay) {
+    std::puts(replay(*find_case(names[0]), method_from(names[1]), arguments.steps).c_str());
   } else if (names.size() == 2 && find_case(names[0])) {
     measure(*find_case(names[0]), method_from(names[1]), arguments.effort);
   } else {
