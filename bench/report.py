@@ -134,8 +134,8 @@ def accuracy_page(
         "",
         "Every hard case ([what they are](../accuracy.md)) in Urto's profiles and in the peers at the same time step and "
         "sub-steps. ✓ and ✗ stand before the level; – marks what an engine lacks. The peers' figures are for float "
-        "but for Chipmunk's, which computes in double; its library is Debian's, which has assertions on and is slower for it. "
-        "Chipmunk has no continuous collision.",
+        "but for Chipmunk's, which computes in double; its library is Debian's, which has assertions on and is slower for "
+        "it. Chipmunk has no continuous collision.",
         "",
         f"Levels that Urto meets: default {met[plan.DEFAULT][0]} of {met[plan.DEFAULT][1]}, "
         f"precise {met[plan.PRECISE][0]} of {met[plan.PRECISE][1]}.",
