@@ -93,11 +93,12 @@ def whole_points(cases: Sequence[Record], results: dict[str, list[Record]]) -> l
     if not found:
         return []
     most = max(len(values) for values in found.values())
-    return [
-        (curve, 100 * sum(not met for met, _ in values) / len(values), pages.geometric_mean([time for _, time in values]))
-        for (curve, _, _), values in found.items()
-        if len(values) >= 0.8 * most
-    ]
+    points = []
+    for (curve, _, _), values in found.items():
+        if len(values) >= 0.8 * most:
+            missed = 100 * sum(not met for met, _ in values) / len(values)
+            points.append((curve, missed, pages.geometric_mean([seconds for _, seconds in values])))
+    return points
 
 
 # ---- writing ----
@@ -132,10 +133,10 @@ def accuracy_page(
     lines = [
         "# Accuracy beside other engines",
         "",
-        "Every hard case ([what they are](../accuracy.md)) in Urto's profiles and in the peers at the same time step and "
-        "sub-steps. ✓ and ✗ stand before the level; – marks what an engine lacks. The peers' figures are for float "
-        "but for Chipmunk's, which computes in double; its library is Debian's, which has assertions on and is slower for "
-        "it. Chipmunk has no continuous collision.",
+        "Every hard case ([what they are](../accuracy.md)) in Urto's profiles and in the peers at the same time step "
+        "and sub-steps. ✓ and ✗ stand before the level; – marks what an engine lacks. The peers' figures are for float "
+        "but for Chipmunk's, which computes in double; its library is Debian's, which has assertions on and is slower "
+        "for it. Chipmunk has no continuous collision.",
         "",
         f"Levels that Urto meets: default {met[plan.DEFAULT][0]} of {met[plan.DEFAULT][1]}, "
         f"precise {met[plan.PRECISE][0]} of {met[plan.PRECISE][1]}.",
@@ -170,8 +171,8 @@ def rectangles_page(stages: Sequence[Record], errors: dict[str, list[Record]]) -
         "# How many rectangles run at 60 Hz",
         "",
         "The question of the thesis that Urto began with, for its method and for each step towards Urto's. Rectangles "
-        "fall into a box and bounce, none sleeps; the figure is where the mean step takes a sixtieth of a second of one "
-        "processor. Urto's implementation of the thesis's method always looks at bounds first. The errors are those of "
+        "fall into a box and bounce, none sleeps; the figure is where the mean step takes a sixtieth of a second of "
+        "one processor. Urto's implementation of the thesis's method always looks at bounds first. The errors are those of "
         "[the hard cases](../accuracy.md) by the same method.",
         "",
         *pages.rectangles_page(stages, errors),
