@@ -289,6 +289,19 @@ void update_model(WorldData<S>& world) {
   }
 }
 
+// Once the centre of mass is known.
+template <class S>
+void note_shortcuts(WorldData<S>& world, std::uint32_t slot) {
+  const Body<S>& body = world.bodies[slot];
+  for (Proxy p = body.first_shape; p != kNone; p = world.shapes[p].next) {
+    Shape<S>& shape = world.shapes[p];
+    const Convex<S>& convex = world.convexes[p];
+    if (convex.centroid == body.local_center()) shape.flags |= kShapeCentred;
+    const Vec<S>& right = convex.normals[1];
+    if (shape.shape_kind() == ShapeKind::kBox && right.x() == S(1) && right.y() == S(0)) shape.flags |= kShapeUpright;
+  }
+}
+
 template <class S>
 std::uint32_t create_body(WorldData<S>& world, const BodyDef& def) {
   const std::vector<Part> parts = convex_parts(def);
@@ -314,6 +327,7 @@ std::uint32_t create_body(WorldData<S>& world, const BodyDef& def) {
   count_needs(world, slot, +1);
   const bool moving = def.velocity != Vec2(0, 0) || def.angular_velocity != 0;
   if (def.type == BodyType::kKinematic ? moving : def.awake) wake_body(world, slot);
+  note_shortcuts(world, slot);
   refresh_places(world, slot);
   const bool still = def.type == BodyType::kStatic;
   for (Proxy p = body.first_shape; p != kNone; p = world.shapes[p].next) {

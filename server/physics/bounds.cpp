@@ -10,11 +10,13 @@ template <class S>
 Aabb<S> tight_bounds(const Shape<S>& shape, const Convex<S>& convex, const Place<S>& place, const Body<S>& body) {
   const ShapeKind kind = shape.shape_kind();
   if (kind != ShapeKind::kBox && kind != ShapeKind::kCircle) return convex.bounds(body.pose());
-  S ex = convex.radius, ey = convex.radius;
+  S ex, ey;
   if (kind == ShapeKind::kBox) {
     const S ax = absolute(place.c), ay = absolute(place.s);
     ex = ax * place.half_width + ay * place.half_height;
     ey = ay * place.half_width + ax * place.half_height;
+  } else {
+    ex = ey = convex.radius;
   }
   return {Vec<S>(place.x - ex, place.y - ey), Vec<S>(place.x + ex, place.y + ey)};
 }

@@ -61,17 +61,16 @@ void Mover<S>::integrate_velocity(const Body<S>& body, Motion<S>& motion) const 
 }
 
 template <class S>
-void Mover<S>::integrate_position(const Body<S>& body, Motion<S>& motion) const {
+void Mover<S>::integrate_position(Motion<S>& motion) const {
   motion.dx += h_ * motion.vx;
   motion.dy += h_ * motion.vy;
-  if (!body.can_rotate()) return;
-  motion.da += h_ * motion.w;
+  motion.da += h_ * motion.w;  // a body that cannot turn has no angular velocity
   rotation_by(motion.da, motion.c, motion.s);
 }
 
 template <class S>
 void Mover<S>::fly(const Body<S>& body, Motion<S>& motion) const {
-  if (!body.dynamic()) return integrate_position(body, motion);
+  if (!body.dynamic()) return integrate_position(motion);
   const auto a = [&](const Vec<S>& x, const Vec<S>& v) {
     return Vec<S>(acceleration(body, motion, x, v) - v * body.linear_damping);
   };

@@ -12,10 +12,14 @@ class Mover {
  public:
   Mover(const WorldData<S>& world, S h);
 
+  // What integrate_velocity adds to a body that only the uniform gravity acts on, m/s.
+  Vec<S> pull(const Body<S>& body) const {
+    return body.dynamic() ? Vec<S>(gravity_ * body.gravity_scale * h_) : Vec<S>(Vec<S>::Zero());
+  }
   // v += h a, then damping (implicit: v / (1 + h d), stable for any d).
   void integrate_velocity(const Body<S>& body, Motion<S>& motion) const;
   // x += h v, angle += h ω.
-  void integrate_position(const Body<S>& body, Motion<S>& motion) const;
+  void integrate_position(Motion<S>& motion) const;
   // Both at once by the scene's integrator, for a body that nothing touches.
   void fly(const Body<S>& body, Motion<S>& motion) const;
 

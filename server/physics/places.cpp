@@ -8,14 +8,17 @@ namespace {
 template <class S>
 Place<S> place_of(const WorldData<S>& world, const Body<S>& body, const Motion<S>& motion, Proxy proxy) {
   const Shape<S>& shape = world.shapes[proxy];
-  const Convex<S>& convex = world.convexes[proxy];
   const S time_step = S(world.settings.time_step);
   Place<S> place;
-  const Vec<S> offset = body.rotation().apply(convex.centroid - body.local_center());
-  place.offset_x = offset.x();
-  place.offset_y = offset.y();
-  place.x = body.x + offset.x();
-  place.y = body.y + offset.y();
+  place.x = body.x;
+  place.y = body.y;
+  if ((shape.flags & kShapeCentred) == 0) {
+    const Vec<S> offset = body.rotation().apply(world.convexes[proxy].centroid - body.local_center());
+    place.offset_x = offset.x();
+    place.offset_y = offset.y();
+    place.x += offset.x();
+    place.y += offset.y();
+  }
   place.reach = shape.reach;
   // What closes in by more than half a thickness is the business of continuous collision.
   place.bound = body.dynamic() ? S(0.5) * body.extent_min : S(kCoordinateMax);
@@ -24,21 +27,21 @@ Place<S> place_of(const WorldData<S>& world, const Body<S>& body, const Motion<S
   place.way_y = motion.vy * time_step;
   place.c = body.c;
   place.s = body.s;
-  const bool simd = world.settings.narrow_phase == NarrowPhaseKind::kSat && convex.radius == S(0);
-  if (shape.shape_kind() == ShapeKind::kPolygon && simd) place.vertices = S(convex.count);
+  const bool sat = world.settings.narrow_phase == NarrowPhaseKind::kSat;
+  if (shape.shape_kind() == ShapeKind::kPolygon && sat && world.convexes[proxy].radius == S(0))
+    place.vertices = S(world.convexes[proxy].count);
   if (shape.shape_kind() != ShapeKind::kBox) return place;
-  // The box's own axis: the normal of its face to the right.
-  const Vec<S>& right = convex.normals[1];
-  const bool upright = right.x() == S(1) && right.y() == S(0);
+  const bool upright = (shape.flags & kShapeUpright) != 0;
   if (!upright) {
-    const Vec<S> axis = body.rotation().apply(right);
+    // The box's own axis: the normal of its face to the right.
+    const Vec<S> axis = body.rotation().apply(world.convexes[proxy].normals[1]);
     place.c = axis.x();
     place.s = axis.y();
   }
   place.half_width = shape.half_width;
   place.half_height = shape.half_height;
-  place.box = simd ? S(1) : S(0);
-  if (upright && simd) place.vertices = S(4);
+  place.box = sat ? S(1) : S(0);
+  if (upright && sat) place.vertices = S(4);
   return place;
 }
 

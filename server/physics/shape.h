@@ -15,6 +15,9 @@ enum ShapeFlag : std::uint32_t {
   kShapeAlive = 1u << 0,
   kShapeSensor = 1u << 1,
   kShapeMoved = 1u << 2,  // waits in the list of moved proxies
+  // What makes a place cheap: the centroid is the body's centre of mass; the axes of a box are the body's.
+  kShapeCentred = 1u << 3,
+  kShapeUpright = 1u << 4,
 };
 
 // A convex shape of a body: what pairs and contacts need of it. Its outline is the Convex of the same slot.
