@@ -24,6 +24,7 @@ class PreciseStep {
     double silent_until = 0;                                     // s into the step: not looked at before
     double silence = 0;                                          // s, of the last time that it was looked at in vain
     std::uint32_t bounces = 0;                                   // impacts with restitution
+    std::uint32_t stops = 0;                                     // ends of sliding
     std::uint32_t strikes = 0;                                   // all impacts
     std::uint32_t touch_id = 0;                                  // of the first point
     std::uint32_t cluster = 0;                                   // serial of the last one that saw it
@@ -88,6 +89,8 @@ class PreciseStep {
   void add_point(Purpose purpose, std::uint32_t index, std::uint32_t point, double duration);
   void part_overlaps();
   void find_forces(double now);
+  double until_stop(std::uint32_t& contact) const;
+  void take_forces(double duration);
 
   WorldData<double>* world_ = nullptr;
   std::optional<Thrust> thrust_;

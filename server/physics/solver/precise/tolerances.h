@@ -52,7 +52,11 @@ inline constexpr double kSilence = 1e-3;
 inline constexpr double kSilenceGrowth = 4;
 // Bodies whose contacts may be solved anew in one step, in multiples of the awake ones. Beyond it a body stops where it
 // touches, keeps its velocity, and the next step goes on from there.
-inline constexpr unsigned kWorkFactor = 64;
-inline constexpr unsigned kWorkLeast = 1024;
+inline constexpr unsigned kWorkFactor = 16;
+inline constexpr unsigned kWorkLeast = 512;
+// Where sliding ends within a step, it is settled there anew, so often a pair and step and in clusters up to this size.
+inline constexpr unsigned kStopsMax = 8;
+inline constexpr unsigned kStopClusterMax = 32;
+inline constexpr double kStopLeast = 1e-6;  // of the time at hand: what ends sooner has ended
 
 }  // namespace urto
