@@ -281,6 +281,11 @@ std::vector<Case> cases() {
       list.push_back({std::string("orbits_") + name + suffix, 400, flight, fill_orbits});
     }
   }
+  WorldSettings precise;
+  precise.precision = Precision::kDouble;
+  precise.solver = SolverKind::kPrecise;
+  list.push_back({"pyramid_precise", 40, precise, fill_pyramid});
+  list.push_back({"discs_precise", 40, precise, fill_discs});
   return list;
 }
 
