@@ -31,9 +31,15 @@ inline constexpr double kPreloadTime = 8.0;  // s
 // faster have left the point that their masses were computed for, and long arms on a small body would make energy.
 inline constexpr double kDriftFraction = 0.25;
 
-// Faces that would meet over less than this are a seam: a body slides over it, it does not run into it. As a share of
-// the speculative reach; more than a resting body sinks in, less than any step that one means.
+// Where two faces of the ground meet, a gap between them up to this share of the speculative reach makes a seam all the
+// same; a body that has sunk in so far still lies on the ground and not beside it.
 inline constexpr double kSeamFraction = 0.25;
+// A step up to this share of the reach (0.4 mm under a box of half a metre) is no step.
+inline constexpr double kSeamStepFraction = 0.02;
+// 1 − cosine of the angle up to which two faces have one direction: 0.26 degrees.
+inline constexpr double kSeamTurn = 1e-5;
+// Sine of the angle up to which the normal of round surfaces is a face's: rounding.
+inline constexpr double kSeamRoundTurn = 3e-7;
 
 // Two contact points so near to each other that their equations say the same are solved as one: least determinant,
 // as a share of the diagonal's product.

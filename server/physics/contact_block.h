@@ -50,7 +50,10 @@ struct alignas(64) ContactBlockRest {
   std::uint32_t begun;            // bit mask: touch events have begun and not ended
 };
 
-inline constexpr double kNoPoint = -1;         // an id that no feature has
-inline constexpr double kFarSeparation = 1e6;  // m, of a second point that is not there
+inline constexpr double kNoPoint = -1;  // an id that no feature has
+// Ids of the only point of a contact whose points were left out (seams.h); its separation is kFarSeparation.
+inline constexpr double kIdlePoint = 1 << 18;         // they are its neighbours' now: it touches
+inline constexpr double kGhostPoint = (1 << 18) + 1;  // it does not touch
+inline constexpr double kFarSeparation = 1e6;         // m, of a second point that is not there
 
 }  // namespace urto

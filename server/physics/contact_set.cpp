@@ -133,7 +133,8 @@ void read_points(const ContactBlock<S>& block, const ContactBlockRest<S>& rest, 
     const PointLanes<S>& p = block.points[i];
     ManifoldPoint<S>& point = c.points[i];
     point = ManifoldPoint<S>{};
-    if (rest.id[i][lane] < S(0)) continue;
+    const S id = rest.id[i][lane];
+    if (id < S(0) || id == S(kIdlePoint) || id == S(kGhostPoint)) continue;
     ++c.count;
     point.ax = p.along[lane] * nx + p.lever[lane] * ny;
     point.ay = p.along[lane] * ny - p.lever[lane] * nx;

@@ -7,6 +7,7 @@
 #include "physics/narrow_phase/box_kernels.h"
 #include "physics/narrow_phase/manifold.h"
 #include "physics/narrow_phase/polygon_kernels.h"
+#include "physics/seams.h"
 #include "physics/solver/contact_kernels.h"
 
 namespace urto {
@@ -110,10 +111,41 @@ void collide_lanes(const WorldData<S>& world, const ContactBlock<S>& block, cons
 }
 
 template <class S>
+template <class S>
 void list_blocks(ContactSet<S>& set) {
   set.blocks.clear();
   for (auto& color : set.colors)
     for (std::size_t i = 0; i < color.blocks.size(); ++i) set.blocks.push_back({&color.blocks[i], &color.rest[i]});
+}
+
+template <class S>
+void take_manifolds(const WorldData<S>& world, const ManifoldLanes<S>& manifolds, ContactBlock<S>& block,
+                    ContactBlockRest<S>& rest, std::vector<std::uint32_t>& parted) {
+  contact_passes<S>().take(world.motions.data(), manifolds, block, rest);
+  for (std::uint32_t lane = 0; lane < block.count; ++lane)
+    if (manifolds.count[lane] == S(0)) parted.push_back(rest.contact[lane]);
+}
+
+// Contacts with unmovable bodies, whose blocks begin at `first`, are looked at together before any is taken over.
+template <class S>
+void update_ground_lanes(WorldData<S>& world, std::size_t first, std::vector<std::vector<std::uint32_t>>& parted) {
+  const auto& blocks = world.touching.blocks;
+  std::vector<ManifoldLanes<S>>& manifolds = world.scratch.manifolds;
+  const std::size_t count = blocks.size() - first;
+  if (manifolds.size() < count) manifolds.resize(count);
+  world.team->share(count, kBlocksPerShare, [&](unsigned, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      collide_lanes(world, *blocks[first + i].block, *blocks[first + i].rest, manifolds[i]);
+  });
+  const std::size_t last_color = count - world.touching.colors[kColorsMax - 1].blocks.size();
+  for (std::size_t i = 0; i < count; ++i)
+    note_ground(world, i >= last_color, *blocks[first + i].block, *blocks[first + i].rest, manifolds[i]);
+  join_seams(world);
+  world.team->share(count, kBlocksPerShare, [&](unsigned member, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      take_manifolds(world, manifolds[i], *blocks[first + i].block, *blocks[first + i].rest, parted[member]);
+  });
+  finish_seams(world);
 }
 
 // Leaves the contacts that part now in the lists by member.
@@ -121,19 +153,17 @@ template <class S>
 void update_lanes(WorldData<S>& world) {
   list_blocks(world.touching);
   std::vector<std::vector<std::uint32_t>>& parted = lists_by_member(world);
-  const ContactPasses<S>& passes = contact_passes<S>();
-  world.team->share(world.touching.blocks.size(), kBlocksPerShare,
-                    [&](unsigned member, std::size_t begin, std::size_t end) {
-                      ManifoldLanes<S> manifolds{};
-                      for (std::size_t i = begin; i < end; ++i) {
-                        ContactBlock<S>& block = *world.touching.blocks[i].block;
-                        ContactBlockRest<S>& rest = *world.touching.blocks[i].rest;
-                        collide_lanes(world, block, rest, manifolds);
-                        passes.take(world.motions.data(), manifolds, block, rest);
-                        for (std::uint32_t lane = 0; lane < block.count; ++lane)
-                          if (manifolds.count[lane] == S(0)) parted[member].push_back(rest.contact[lane]);
-                      }
-                    });
+  const auto& blocks = world.touching.blocks;
+  std::size_t ground = 0;
+  for (std::uint32_t color = 0; color < kMovableColors; ++color) ground += world.touching.colors[color].blocks.size();
+  world.team->share(ground, kBlocksPerShare, [&](unsigned member, std::size_t begin, std::size_t end) {
+    ManifoldLanes<S> manifolds{};
+    for (std::size_t i = begin; i < end; ++i) {
+      collide_lanes(world, *blocks[i].block, *blocks[i].rest, manifolds);
+      take_manifolds(world, manifolds, *blocks[i].block, *blocks[i].rest, parted[member]);
+    }
+  });
+  update_ground_lanes(world, ground, parted);
   world.touching.current = true;
 }
 
@@ -317,12 +347,13 @@ bool meets(const Contact<S>& c) {
 
 // Bit mask of the lanes whose surfaces meet or push. A point that is not there does neither.
 template <class S>
-std::uint32_t meeting_lanes(const ContactBlock<S>& block) {
+std::uint32_t meeting_lanes(const ContactBlock<S>& block, const ContactBlockRest<S>& rest) {
   std::uint32_t meeting = 0;
   for (std::uint32_t lane = 0; lane < block.count; ++lane) {
     const PointLanes<S>&p = block.points[0], &q = block.points[1];
     const bool meet = (p.separation[lane] <= S(0)) | (p.total_normal_impulse[lane] > S(0)) |
-                      (q.separation[lane] <= S(0)) | (q.total_normal_impulse[lane] > S(0));
+                      (q.separation[lane] <= S(0)) | (q.total_normal_impulse[lane] > S(0)) |
+                      (rest.id[0][lane] == S(kIdlePoint));
     meeting |= static_cast<std::uint32_t>(meet) << lane;
   }
   return meeting;
@@ -341,7 +372,7 @@ void report_lanes(WorldData<S>& world) {
   for (auto& color : world.touching.colors) {
     for (std::size_t i = 0; i < color.blocks.size(); ++i) {
       ContactBlockRest<S>& rest = color.rest[i];
-      const std::uint32_t meeting = meeting_lanes(color.blocks[i]);
+      const std::uint32_t meeting = meeting_lanes(color.blocks[i], rest);
       for (std::uint32_t changed = meeting ^ rest.begun; changed != 0; changed &= changed - 1) {
         const auto lane = static_cast<std::uint32_t>(__builtin_ctz(changed));
         report_lane(world, rest.contact[lane], rest, lane);

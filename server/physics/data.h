@@ -14,6 +14,7 @@
 #include "physics/contact_set.h"
 #include "physics/joint.h"
 #include "physics/model.h"
+#include "physics/narrow_phase/box_kernels.h"
 #include "physics/pair_set.h"
 #include "physics/places.h"
 #include "physics/shape.h"
@@ -26,6 +27,25 @@ namespace urto {
 struct ActiveContact {
   std::uint32_t contact, shape_a, shape_b;
   std::uint32_t sensor;  // 0 or 1
+};
+
+// The lane of a contact of a dynamic shape with one that is not, and its new manifold (seams.h).
+template <class S>
+struct GroundLane {
+  Proxy shape, ground;  // the one that moves, and what it lies on
+  std::uint32_t lane;
+  bool moves_b;  // the one that moves is the contact's b
+  ContactBlock<S>* block;
+  ContactBlockRest<S>* rest;
+  ManifoldLanes<S>* manifolds;
+};
+// What a point has to take over when its lane has taken its manifold.
+template <class S>
+struct AdoptedImpulse {
+  ContactBlock<S>* block;
+  ContactBlockRest<S>* rest;
+  std::uint32_t lane;
+  S id, normal_impulse, tangent_impulse, preload;
 };
 
 // Buffers that live for one phase; kept for their capacity only.
@@ -41,6 +61,10 @@ struct Scratch {
   std::vector<std::uint32_t> parted, met;             // contact slots
   std::vector<std::uint8_t> findings;                 // by index of active contact
   std::vector<std::vector<std::uint32_t>> by_member;  // of the team
+  std::vector<ManifoldLanes<S>> manifolds;            // of the contacts with unmovable bodies, by block
+  std::vector<GroundLane<S>> ground;
+  std::vector<std::uint64_t> ground_order;
+  std::vector<AdoptedImpulse<S>> adopted;
 };
 
 template <class S>

@@ -120,6 +120,30 @@ def test_what_is_despawned_is_gone_from_the_next_layout(room: urto.Room, tmp_pat
         assert counts[-1] == (5, 0), entity
 
 
+def test_round_shapes_and_chains_are_drawn(room: urto.Room, tmp_path: Path) -> None:
+    room.spawn(
+        [
+            urto.Chain(vertices=[(5, 0), (-5, 0)], type="static"),
+            urto.Chain(vertices=[(8, 0), (9, 0), (9, 1)], loop=True, type="static"),
+            urto.Capsule(a=(-1, 0), b=(1, 0), radius=0.5, position=(0, 3)),
+            urto.Box(width=2, height=1, radius=0.25, position=(4, 3)),
+        ]
+    )
+    layers = ShapeSet(room.bodies()).layers
+    outline = layers["bodies"].polygons
+    capsule, rounded = (outline.vertex[start:end] for start, end in zip(outline.start, outline.start[1:], strict=False))
+    assert np.allclose([capsule.min(axis=0), capsule.max(axis=0)], [[-1.5, -0.5], [1.5, 0.5]], atol=0.01)
+    assert np.allclose([rounded.min(axis=0), rounded.max(axis=0)], [[-1.25, -0.75], [1.25, 0.75]], atol=0.01)
+    assert layers["static"].lines.start == [0, 2, 6]  # a loop ends where it begins
+    options = ViewOptions(save=tmp_path)
+    shown = _View(room, options, _Outputs(options, print))
+    shown.begin()
+    shown.show(room.step(2))
+    shown.end_recording()
+    strips = _values(tmp_path / "room.rrd", "/room/static/lines", "LineStrips3D:strips")
+    assert [len(strip) for strip in strips[0][1]] == [2, 4]
+
+
 def test_the_picture_shows_bodies_where_they_are(room: urto.Room, fake: FakeRoom, tmp_path: Path) -> None:
     room.spawn(
         [

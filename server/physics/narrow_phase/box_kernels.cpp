@@ -163,47 +163,6 @@ struct Points {
         q(hn::AndNot(f.beside, hn::Le(hn::Sub(f.qx, f.half), reach))) {}
 };
 
-// The rule for seams (slide_over_seam in manifold.cpp): faces that overlap less than `seam` beside each other give
-// way to the faces aside, if those hardly overlap either. Returns the lanes where they did.
-template <class S>
-HWY_INLINE Mask<S> slide_over_seams(const BoxLanes<S>& a, const BoxLanes<S>& b, Pair<S> between, Vector<S> reach,
-                                    const Separations<S>& sat, Mask<S> flip, Mask<S> vertical, Clipped<S>& face) {
-  const auto seam = hn::Mul(set(S(kSeamFraction)), smaller(reach, set(S(kSpeculativeDistanceMax))));
-  const Points<S> kept(face, reach);
-  const auto narrow = hn::Lt(hn::Abs(hn::Sub(face.qy, face.py)), seam);
-  const auto shallow = hn::Gt(hn::Sub(face.px, face.half), hn::Neg(seam));
-  const auto candidates = hn::And(hn::And(kept.p, kept.q), hn::And(narrow, shallow));
-  if (hn::AllFalse(Tag<S>(), candidates)) return candidates;
-  // The face's own box has its other axis aside; of the other box it is the axis that looks least along the normal.
-  const auto x_looks = hn::Ge(hn::Abs(dot<S>(face.normal, choose<S>(flip, a.axis, b.axis))),
-                              hn::Abs(dot<S>(face.tangent, choose<S>(flip, a.axis, b.axis))));
-  const auto own =
-      hn::IfThenElse(flip, hn::IfThenElse(vertical, sat.bx, sat.by), hn::IfThenElse(vertical, sat.ax, sat.ay));
-  const auto others =
-      hn::IfThenElse(flip, hn::IfThenElse(x_looks, sat.ay, sat.ax), hn::IfThenElse(x_looks, sat.by, sat.bx));
-  const auto of_a = hn::IfThenElse(flip, others, own), of_b = hn::IfThenElse(flip, own, others);
-  const auto flip_aside = hn::Gt(of_b, hn::Add(of_a, set(S(kFacePreference))));
-  const auto aside = hn::And(candidates, hn::Ge(hn::IfThenElse(flip_aside, of_b, of_a), hn::Neg(seam)));
-  if (hn::AllFalse(Tag<S>(), aside)) return aside;
-  // The axis aside: the reference's other one, or the one of the other box found above.
-  const auto own_vertical = hn::Not(vertical);
-  const auto is_own = hn::Or(hn::And(flip_aside, flip), hn::AndNot(flip_aside, hn::Not(flip)));
-  const auto vertical_aside = hn::Or(hn::And(is_own, own_vertical), hn::AndNot(is_own, x_looks));
-  const Clipped<S> other(a, b, between, flip_aside, vertical_aside);
-  const auto pick = [&](Vector<S>& to, Vector<S> from) HWY_ATTR { to = hn::IfThenElse(aside, from, to); };
-  face.normal = choose<S>(aside, other.normal, face.normal);
-  face.tangent = choose<S>(aside, other.tangent, face.tangent);
-  pick(face.half, other.half);
-  pick(face.px, other.px);
-  pick(face.py, other.py);
-  pick(face.qx, other.qx);
-  pick(face.qy, other.qy);
-  pick(face.p_id, other.p_id);
-  pick(face.q_id, other.q_id);
-  face.beside = hn::Or(hn::And(aside, other.beside), hn::AndNot(aside, face.beside));
-  return aside;
-}
-
 template <class S>
 HWY_INLINE void collide_vector(const Place<S>* places, const std::uint32_t* proxies_a, const std::uint32_t* proxies_b,
                                std::size_t lane, ManifoldLanes<S>& out) {
@@ -218,10 +177,7 @@ HWY_INLINE void collide_vector(const Place<S>* places, const std::uint32_t* prox
   if (hn::AllFalse(Tag<S>(), near)) return;
   const auto flip = hn::Gt(best_b, hn::Add(best_a, set(S(kFacePreference))));
   const auto vertical = hn::Or(hn::And(flip, hn::Gt(sat.by, sat.bx)), hn::AndNot(flip, hn::Gt(sat.ay, sat.ax)));
-  Clipped<S> face(a, b, between, flip, vertical);
-  const Mask<S> aside = slide_over_seams(a, b, between, reach, sat, flip, vertical, face);
-  // After a seam the reference may be another one; the ids tell whose.
-  const auto turned_around = hn::Ge(face.p_id, set(S(ManifoldIds::kFlip)));
+  const Clipped<S> face(a, b, between, flip, vertical);
   Points<S> kept(face, reach);
   kept.p = hn::And(kept.p, near);
   kept.q = hn::And(kept.q, near);
@@ -230,7 +186,7 @@ HWY_INLINE void collide_vector(const Place<S>* places, const std::uint32_t* prox
   const auto distance2 = hn::Add(hn::Mul(face.corner_x, face.corner_x), hn::Mul(face.corner_y, face.corner_y));
   const auto distance = hn::Sqrt(distance2);
   const auto apart = hn::Gt(larger(best_a, best_b), zero);
-  const auto corner = hn::And(hn::AndNot(hn::Or(hn::Or(kept.p, kept.q), aside), near),
+  const auto corner = hn::And(hn::AndNot(hn::Or(kept.p, kept.q), near),
                               hn::And(hn::And(apart, hn::Gt(distance, zero)), hn::Le(distance, reach)));
   const auto scale = hn::Div(one, hn::IfThenElse(corner, distance, one));
   const auto cx = hn::Mul(face.corner_x, scale), cy = hn::Mul(face.corner_y, scale);
@@ -238,13 +194,13 @@ HWY_INLINE void collide_vector(const Place<S>* places, const std::uint32_t* prox
     return {hn::Add(hn::Mul(face.normal.x, along), hn::Mul(face.tangent.x, across)),
             hn::Add(hn::Mul(face.normal.y, along), hn::Mul(face.tangent.y, across))};
   };
-  const Pair<S> normal = negated_if<S>(turned_around, choose<S>(corner, frame(cx, cy), face.normal));
+  const Pair<S> normal = negated_if<S>(flip, choose<S>(corner, frame(cx, cy), face.normal));
 
   // Points midway between the surfaces, from a's centre of mass.
   const auto point = [&](Vector<S> along, Vector<S> across) HWY_ATTR -> Pair<S> {
     const Pair<S> p = frame(along, across);
-    return {hn::Add(a.offset.x, hn::Add(p.x, hn::IfThenElseZero(turned_around, between.x))),
-            hn::Add(a.offset.y, hn::Add(p.y, hn::IfThenElseZero(turned_around, between.y)))};
+    return {hn::Add(a.offset.x, hn::Add(p.x, hn::IfThenElseZero(flip, between.x))),
+            hn::Add(a.offset.y, hn::Add(p.y, hn::IfThenElseZero(flip, between.y)))};
   };
   const auto first_x = hn::IfThenElse(kept.p, face.px, face.qx), first_y = hn::IfThenElse(kept.p, face.py, face.qy);
   const auto along_1 = hn::IfThenElse(corner, hn::Add(face.half, hn::Mul(half_of, face.corner_x)),

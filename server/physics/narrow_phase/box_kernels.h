@@ -7,8 +7,8 @@
 
 namespace urto {
 
-// SAT, clipping and the rules for seams and corners of manifold.h, for as many pairs of sharp boxes side by side as a
-// block has lanes.
+// SAT, clipping and the rule for corners of manifold.h, for as many pairs of sharp boxes side by side as a block has
+// lanes.
 template <class S>
 struct BoxKernels {
   // Of the pairs (a[i], b[i]) of proxies, all lanes.

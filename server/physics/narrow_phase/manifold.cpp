@@ -10,8 +10,6 @@ namespace {
 template <class S>
 using Manifold = LocalManifold<S>;
 
-constexpr std::uint32_t kNoFace = 0xffffffffu;
-
 template <class S>
 std::uint32_t after(const Convex<S>& shape, std::uint32_t i) {
   return i + 1 < shape.count ? i + 1 : 0;
@@ -201,40 +199,6 @@ Manifold<S> collide_polygons_gjk(const Convex<S>& a, const Convex<S>& b, S reach
   return m;
 }
 
-// How far the two points of a manifold reach along the face.
-template <class S>
-S patch_length(const Manifold<S>& m) {
-  return absolute(cross<S>(m.normal, m.points[1].p - m.points[0].p));
-}
-
-// The face of a that separates best among those that look another way than `normal`.
-template <class S>
-FaceSeparation<S> best_face_aside(const Convex<S>& a, const Convex<S>& b_placed, const Vec<S>& normal) {
-  constexpr double kAside = 0.7;  // cosine: more than 45 degrees from the normal
-  FaceSeparation<S> best{kNoFace, S(0)};
-  for (std::uint32_t i = 0; i < a.count; ++i) {
-    if (absolute(dot<S>(a.normals[i], normal)) > S(kAside)) continue;
-    S least = dot<S>(a.normals[i], b_placed.vertices[0]);
-    for (std::uint32_t j = 1; j < b_placed.count; ++j)
-      least = min_of(least, dot<S>(a.normals[i], b_placed.vertices[j]));
-    const S separation = least - dot<S>(a.normals[i], a.vertices[i]);
-    if (best.face == kNoFace || separation > best.separation) best = {i, separation};
-  }
-  return best;
-}
-
-// Two faces that look at each other but overlap by less than `seam` beside each other, as those of a box that slides
-// over the joint of two floor plates and the next plate: SAT names the faces, and the box would run into the plate.
-// The direction aside, in which they overlap so little, is the one that counts.
-template <class S>
-Manifold<S> slide_over_seam(const Convex<S>& a, const Convex<S>& b, const Manifold<S>& m, S reach, S seam) {
-  const FaceSeparation<S> fa = best_face_aside(a, b, m.normal), fb = best_face_aside(b, a, m.normal);
-  const bool flip = fa.face == kNoFace || (fb.face != kNoFace && fb.separation > fa.separation + S(kFacePreference));
-  const FaceSeparation<S>& f = flip ? fb : fa;
-  if (f.face == kNoFace || f.separation < -seam) return m;
-  return flip ? clip(b, f.face, a, reach, true) : clip(a, f.face, b, reach, false);
-}
-
 template <class S>
 Manifold<S> collide_polygons_sat(const Convex<S>& a, const Convex<S>& b, S reach) {
   const S radii = a.radius + b.radius;
@@ -245,9 +209,6 @@ Manifold<S> collide_polygons_sat(const Convex<S>& a, const Convex<S>& b, S reach
   const bool flip = fb.separation > fa.separation + S(kFacePreference);
   const Manifold<S> m = flip ? clip(b, fb.face, a, reach, true) : clip(a, fa.face, b, reach, false);
   if (radii > S(0)) return collide_rounded(a, b, m, max_of(fa.separation, fb.separation), reach);
-  const S seam = S(kSeamFraction) * min_of(reach, S(kSpeculativeDistanceMax));
-  if (m.count == 2 && patch_length(m) < seam && m.points[0].separation > -seam)
-    return slide_over_seam(a, b, m, reach, seam);
   const bool apart = max_of(fa.separation, fb.separation) > S(0);
   return m.count == 0 && apart ? corner_to_corner(a, b, reach) : m;
 }

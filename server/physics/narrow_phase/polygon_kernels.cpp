@@ -227,11 +227,8 @@ HWY_INLINE void collide_vector(const Place<S>* places, const Convex<S>* convexes
   const auto keep_p = hn::And(clipped, hn::Le(sp, reach)), keep_q = hn::And(clipped, hn::Le(sq, reach));
   const auto any = hn::Or(keep_p, keep_q), both = hn::And(keep_p, keep_q);
 
-  const auto seam = hn::Mul(set(S(kSeamFraction)), smaller(reach, set(S(kSpeculativeDistanceMax))));
-  const auto patch = hn::Abs(dot<S>(tangent, minus<S>(q, p)));
-  const auto at_seam = hn::And(both, hn::And(hn::Lt(patch, seam), hn::Gt(sp, hn::Neg(seam))));
   const auto apart = hn::Gt(larger(fa.separation, fb.separation), zero);
-  const auto ask = hn::Or(at_seam, hn::AndNot(any, hn::And(near, apart)));
+  const auto ask = hn::AndNot(any, hn::And(near, apart));
 
   // Midway between the surfaces, in world axes, from a's centre of mass.
   const auto point = [&](Pair<S> at, Vector<S> s) HWY_ATTR -> Pair<S> {

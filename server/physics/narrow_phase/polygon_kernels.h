@@ -9,7 +9,7 @@
 namespace urto {
 
 // SAT and clipping of manifold.h for as many pairs of sharp polygons side by side as a block has lanes. What is rare
-// (seams, and corners that meet corners) is left to the general routine: kAskGeneral.
+// (corners that meet corners) is left to the general routine: kAskGeneral.
 template <class S>
 struct PolygonKernels {
   // Of the pairs (a[i], b[i]) of proxies, all lanes.

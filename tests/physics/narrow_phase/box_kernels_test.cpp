@@ -114,8 +114,8 @@ TYPED_TEST(BoxKernelsTest, ABoxRestsOnTwoPoints) {
   EXPECT_EQ(this->expected_.count, 2);
 }
 
-// Beside a seam the general routine takes the face aside; so do the lanes.
-TYPED_TEST(BoxKernelsTest, SeamsAreSlidOver) {
+// Where the boxes overlap by next to nothing, the lanes take the face that the general routine takes.
+TYPED_TEST(BoxKernelsTest, OverlapOfACornerOnly) {
   using S = TypeParam;
   const auto slider = make_box<S>(S(0.5), S(0.5), {S(-0.499), S(1.0 + 0.4999)}, 0, S(0.02));
   const auto plate = make_box<S>(2, 1, {2, 0}, 0, S(0.02));

@@ -113,8 +113,8 @@ TEST(SoftStepTest, SlidesOverSeamsWithoutNoticing) {
     def.shapes[0].material.friction = 0;
     const BodyId id = add(*world, def);
     step_for(*world, 30 / speed < 4 ? 30 / speed : 4);
-    EXPECT_NEAR(world->body(id)->velocity.x(), speed, 1e-4 * speed) << speed;
-    EXPECT_NEAR(world->body(id)->angle, 0, 1e-3) << speed;
+    EXPECT_NEAR(world->body(id)->velocity.x(), speed, 1e-6 * speed) << speed;
+    EXPECT_NEAR(world->body(id)->angle, 0, 1e-6) << speed;
   }
 }
 
