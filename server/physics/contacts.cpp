@@ -111,7 +111,6 @@ void collide_lanes(const WorldData<S>& world, const ContactBlock<S>& block, cons
 }
 
 template <class S>
-template <class S>
 void list_blocks(ContactSet<S>& set) {
   set.blocks.clear();
   for (auto& color : set.colors)
@@ -119,9 +118,8 @@ void list_blocks(ContactSet<S>& set) {
 }
 
 template <class S>
-void take_manifolds(const WorldData<S>& world, const ManifoldLanes<S>& manifolds, ContactBlock<S>& block,
-                    ContactBlockRest<S>& rest, std::vector<std::uint32_t>& parted) {
-  contact_passes<S>().take(world.motions.data(), manifolds, block, rest);
+void list_parted(const ManifoldLanes<S>& manifolds, const ContactBlock<S>& block, const ContactBlockRest<S>& rest,
+                 std::vector<std::uint32_t>& parted) {
   for (std::uint32_t lane = 0; lane < block.count; ++lane)
     if (manifolds.count[lane] == S(0)) parted.push_back(rest.contact[lane]);
 }
@@ -141,11 +139,14 @@ void update_ground_lanes(WorldData<S>& world, std::size_t first, std::vector<std
   for (std::size_t i = 0; i < count; ++i)
     note_ground(world, i >= last_color, *blocks[first + i].block, *blocks[first + i].rest, manifolds[i]);
   join_seams(world);
-  world.team->share(count, kBlocksPerShare, [&](unsigned member, std::size_t begin, std::size_t end) {
+  world.team->share(count, kBlocksPerShare, [&](unsigned, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      take_manifolds(world, manifolds[i], *blocks[first + i].block, *blocks[first + i].rest, parted[member]);
+      contact_passes<S>().take(world.motions.data(), manifolds[i], *blocks[first + i].block, *blocks[first + i].rest);
   });
   finish_seams(world);
+  // After those of all members, so that the order does not depend on how many there are.
+  for (std::size_t i = 0; i < count; ++i)
+    list_parted(manifolds[i], *blocks[first + i].block, *blocks[first + i].rest, parted.back());
 }
 
 // Leaves the contacts that part now in the lists by member.
@@ -160,7 +161,8 @@ void update_lanes(WorldData<S>& world) {
     ManifoldLanes<S> manifolds{};
     for (std::size_t i = begin; i < end; ++i) {
       collide_lanes(world, *blocks[i].block, *blocks[i].rest, manifolds);
-      take_manifolds(world, manifolds, *blocks[i].block, *blocks[i].rest, parted[member]);
+      contact_passes<S>().take(world.motions.data(), manifolds, *blocks[i].block, *blocks[i].rest);
+      list_parted(manifolds, *blocks[i].block, *blocks[i].rest, parted[member]);
     }
   });
   update_ground_lanes(world, ground, parted);
