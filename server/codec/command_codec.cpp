@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "codec/check_message.h"
+#include "codec/joint_codec.h"
 #include "codec/room_codec.h"
 #include "codec/scene_codec.h"
 #include "codec/snapshot_codec.h"
@@ -25,6 +26,9 @@ static_assert(v1::REJECTION_CODE_QUOTA == static_cast<int>(RejectionCode::kQuota
 static_assert(v1::REJECTION_CODE_QUEUE_FULL == static_cast<int>(RejectionCode::kQueueFull));
 static_assert(v1::REJECTION_CODE_NOT_PAUSED == static_cast<int>(RejectionCode::kNotPaused));
 static_assert(v1::REJECTION_CODE_CANCELLED == static_cast<int>(RejectionCode::kCancelled));
+static_assert(v1::REJECTION_CODE_UNKNOWN_JOINT == static_cast<int>(RejectionCode::kUnknownJoint));
+static_assert(v1::REJECTION_CODE_WRONG_JOINT_KIND == static_cast<int>(RejectionCode::kWrongJointKind));
+static_assert(v1::REJECTION_CODE_NOT_SUPPORTED == static_cast<int>(RejectionCode::kNotSupported));
 
 Rejection rejection_from(const FieldIssue& issue) {
   const auto code =
@@ -63,6 +67,19 @@ class CommandReader {
         return SetTimeScale{message.set_time_scale().scale()};
       case v1::Command::kQuery:
         return read(message.query());
+      case v1::Command::kCreateJoint:
+        return read(message.create_joint());
+      case v1::Command::kDestroyJoint:
+        return DestroyJoint{
+            joint(message.destroy_joint().has_joint(), message.destroy_joint().joint(), "destroy_joint")};
+      case v1::Command::kSetMotor:
+        need(message.set_motor().has_motor(), "set_motor.motor");
+        return SetMotor{joint(message.set_motor().has_joint(), message.set_motor().joint(), "set_motor"),
+                        motor_from_proto(message.set_motor().motor())};
+      case v1::Command::kSetTarget:
+        need(message.set_target().has_target(), "set_target.target");
+        return SetTarget{joint(message.set_target().has_joint(), message.set_target().joint(), "set_target"),
+                         vector_from_proto(message.set_target().target())};
       case v1::Command::COMMAND_NOT_SET:
         break;  // check_message() lets none pass
     }
@@ -77,8 +94,19 @@ class CommandReader {
 
   BodyRef target(bool present, const v1::BodyRef& ref, const std::string& command) {
     need(present, command + ".body");
-    if (ref.ref_case() == v1::BodyRef::kName) return ref.name();
+    return body_ref_from_proto(ref);
+  }
+
+  JointRef joint(bool present, const v1::JointRef& ref, const std::string& command) {
+    need(present, command + ".joint");
+    if (ref.ref_case() == v1::JointRef::kName) return ref.name();
     return ref.id();
+  }
+
+  CreateJoint read(const v1::CreateJoint& message) {
+    need(message.has_joint(), "create_joint.joint");
+    need(message.joint().has_body_b(), "create_joint.joint.body_b");
+    return CreateJoint{joint_from_proto(message.joint())};
   }
 
   Spawn read(const v1::Spawn& message) {
@@ -141,6 +169,8 @@ class CommandReader {
         return DiagnosticsQuery{};
       case v1::Query::kBody:
         return BodyQuery{target(message.body().has_body(), message.body().body(), "query.body")};
+      case v1::Query::kJoints:
+        return JointsQuery{};
       case v1::Query::QUERY_NOT_SET:
         break;  // check_message() lets none pass
     }

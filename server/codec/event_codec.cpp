@@ -4,6 +4,7 @@
 
 #include <variant>
 
+#include "codec/joint_codec.h"
 #include "codec/scene_codec.h"
 #include "urto/v1/snapshot.pb.h"
 
@@ -41,6 +42,25 @@ struct EventWriter {
     removed->set_id(event.id);
     removed->set_layout(event.layout);
     removed->set_user(event.user);
+  }
+  void operator()(const JointAdded& event) const {
+    auto* added = out->mutable_joint_added();
+    added->set_id(event.joint->id);
+    write_joint(event.joint->spec, added->mutable_joint());
+    added->set_user(event.joint->user);
+  }
+  void operator()(const JointRemoved& event) const {
+    out->mutable_joint_removed()->set_id(event.id);
+    out->mutable_joint_removed()->set_user(event.user);
+  }
+  void operator()(const JointEvent& event) const {
+    auto* broke = out->mutable_joint_broke();
+    broke->set_id(event.joint);
+    broke->set_body_a(event.body_a);
+    broke->set_body_b(event.body_b);
+    write_vector(event.point, broke->mutable_point());
+    broke->set_force(event.force);
+    broke->set_torque(event.torque);
   }
   void operator()(const MemberJoined& event) const {
     out->mutable_member_joined()->set_user(event.user);

@@ -2,6 +2,7 @@
 
 #include <google/protobuf/arena.h>
 
+#include "codec/joint_codec.h"
 #include "codec/scene_codec.h"
 #include "codec/snapshot_codec.h"
 #include "urto/v1/room.pb.h"
@@ -23,6 +24,7 @@ void write_limits(const Limits& limits, v1::Limits* out) {
   out->set_members_max(limits.members_max);
   out->set_events_kept_max(limits.events_kept_max);
   out->set_step_ticks_max(limits.step_ticks_max);
+  out->set_joints_max(limits.joints_max);
 }
 
 void write_body_info(const BodyInfo& info, v1::BodyInfo* out) {
@@ -123,6 +125,7 @@ std::string encode_state(const RoomView& view, const SceneDef& scene, const Room
   write_info(view, scene, settings, host, message->mutable_info());
   write_scene_without_bodies(scene, message->mutable_scene());
   for (const BodyInfo& info : view.bodies) write_body_info(info, message->add_bodies());
+  for (const JointInfo& info : view.joints) write_joint_info(info, message->add_joints());
   if (view.frame) write_snapshot(*view.frame, message->mutable_snapshot());
   if (with_saved_state) message->set_saved_state(view.saved_state.data(), view.saved_state.size());
   return message->SerializeAsString();
@@ -133,6 +136,9 @@ void write_query_result(const QueryResult& result, v1::QueryResult* out) {
   if (result.contacts) write_contacts(*result.contacts, out->mutable_contacts());
   if (result.diagnostics) write_diagnostics(*result.diagnostics, out->mutable_diagnostics());
   if (result.body) write_body_info(*result.body, out->mutable_body());
+  if (!result.joints) return;
+  out->mutable_joints();  // there, even if empty
+  for (const JointInfo& info : *result.joints) write_joint_info(info, out->mutable_joints()->add_joints());
 }
 
 }  // namespace urto::codec

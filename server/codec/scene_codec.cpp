@@ -4,6 +4,8 @@
 #include <utility>
 #include <variant>
 
+#include "codec/joint_codec.h"
+
 namespace urto::codec {
 namespace {
 
@@ -219,6 +221,7 @@ SceneDef scene_from_proto(const v1::Scene& message) {
   scene.world = settings_from_proto(message.world());
   for (const auto& field : message.fields()) scene.world.fields.push_back(field_from_proto(field));
   for (const auto& body : message.bodies()) scene.bodies.push_back(body_from_proto(body));
+  for (const auto& joint : message.joints()) scene.joints.push_back(joint_from_proto(joint));
   if (message.has_view()) {
     scene.view = View{vector_from_proto(message.view().lower()), vector_from_proto(message.view().upper())};
   }
@@ -262,6 +265,7 @@ void write_scene_without_bodies(const SceneDef& scene, v1::Scene* out) {
 void write_scene(const SceneDef& scene, v1::Scene* out) {
   write_scene_without_bodies(scene, out);
   for (const BodySpec& body : scene.bodies) write_body(body, out->add_bodies());
+  for (const JointSpec& joint : scene.joints) write_joint(joint, out->add_joints());
 }
 
 v1::Precision precision_to_proto(Precision precision) { return enum_to_proto<v1::Precision>(precision); }

@@ -150,7 +150,7 @@ class World {
   // Errors of all: kInvalidValue, kUnknownBody, kUnknownJoint, kWrongBodyType (no dynamic body), kWrongJointKind,
   // kLimitReached, kNotSupported (by a solver other than the soft step).
   virtual Expected<JointId> add_joint(const JointDef& def) = 0;
-  // The checks of add_joint alone. What passes is accepted while fewer than kJointsMax joints exist.
+  // The checks of add_joint but for those of the bodies and of kJointsMax.
   virtual Status check_joint(const JointDef& def) const = 0;
   virtual Status remove_joint(JointId id) = 0;
   virtual bool contains_joint(JointId id) const = 0;

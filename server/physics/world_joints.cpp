@@ -37,7 +37,11 @@ template <class S>
 Status WorldOf<S>::check_joint(const JointDef& def) const {
   if (data_.settings.solver != SolverKind::kSoftStep)
     return failure(ErrorCode::kNotSupported, "solver", "", "only the soft step solver knows joints");
-  if (Status status = check_joint_def(def); !status) return status;
+  return check_joint_def(def);
+}
+
+template <class S>
+Status WorldOf<S>::check_joint_bodies(const JointDef& def) const {
   const std::uint32_t b = slot_of(def.body_b);
   if (b == kNone) return unknown_body("body_b", def.body_b);
   if (std::holds_alternative<MouseJoint>(def.geometry)) {
@@ -58,6 +62,7 @@ Status WorldOf<S>::check_joint(const JointDef& def) const {
 template <class S>
 Expected<JointId> WorldOf<S>::add_joint(const JointDef& def) {
   if (Status status = check_joint(def); !status) return tl::unexpected<Error>(status.error());
+  if (Status status = check_joint_bodies(def); !status) return tl::unexpected<Error>(status.error());
   if (data_.needs.joints >= kJointsMax)
     return failure(ErrorCode::kLimitReached, "joint", std::to_string(kJointsMax), "the world is full of joints");
   const std::uint32_t a = def.body_a == 0 ? kNone : slot_of(def.body_a);
@@ -121,6 +126,7 @@ std::vector<JointId> WorldOf<S>::joints() const {
   template std::uint32_t WorldOf<S>::joint_slot_of(JointId) const;                  \
   template Status WorldOf<S>::check_joint_target(JointId, bool, const char*) const; \
   template Status WorldOf<S>::check_joint(const JointDef&) const;                   \
+  template Status WorldOf<S>::check_joint_bodies(const JointDef&) const;            \
   template Expected<JointId> WorldOf<S>::add_joint(const JointDef&);                \
   template Status WorldOf<S>::remove_joint(JointId);                                \
   template Status WorldOf<S>::set_motor(JointId, const JointMotor&);                \

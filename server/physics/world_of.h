@@ -69,6 +69,7 @@ class WorldOf final : public World {
  private:
   std::uint32_t slot_of(BodyId id) const;
   std::uint32_t joint_slot_of(JointId id) const;
+  Status check_joint_bodies(const JointDef& def) const;
   Status check_joint_target(JointId id, bool right_kind, const char* message) const;
   // kUnknownBody, or kWrongBodyType if `dynamic` is asked for and the body is not.
   Status check_target(BodyId id, bool dynamic) const;

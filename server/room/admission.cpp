@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "room/batch_overlay.h"
+#include "room/joint_overlay.h"
 
 namespace urto {
 namespace {
@@ -16,11 +17,6 @@ std::string text_of(double value) {
   char buffer[32];
   const auto end = std::to_chars(buffer, buffer + sizeof(buffer), value).ptr;
   return std::string(buffer, end);
-}
-
-std::string text_of(const BodyRef& ref) {
-  if (const auto* id = std::get_if<BodyId>(&ref)) return std::to_string(*id);
-  return std::get<std::string>(ref);
 }
 
 Rejection reject(RejectionCode code, std::string field, std::string value, std::string message) {
@@ -69,7 +65,10 @@ Check check_text(const std::string& field, const std::string& text, std::size_t 
 class BatchCheck {
  public:
   BatchCheck(const AdmissionContext& context, const std::string& user)
-      : context_(context), user_(user), overlay_(context.bodies, context.scene_bodies, context.paused) {}
+      : context_(context),
+        user_(user),
+        overlay_(context.bodies, context.scene_bodies, context.paused),
+        joints_(context.joints, context.scene_joints) {}
 
   Check operator()(const Spawn& command) {
     const BodySpec& spec = command.body;
@@ -98,6 +97,7 @@ class BatchCheck {
 
   Check operator()(const Despawn& command) {
     if (auto bad = check_target("despawn", command.body)) return bad;
+    joints_.despawn(overlay_.find(command.body)->key);
     overlay_.despawn(command.body);
     return std::nullopt;
   }
@@ -125,7 +125,7 @@ class BatchCheck {
   Check operator()(const SetVelocity& command) const {
     if (auto bad = check_target("set_velocity", command.body)) return bad;
     if (overlay_.find(command.body)->type == BodyType::kStatic) {
-      return reject(RejectionCode::kWrongBodyType, "set_velocity.body", text_of(command.body),
+      return reject(RejectionCode::kWrongBodyType, "set_velocity.body", ref_text(command.body),
                     "A static body has no velocity.");
     }
     if (command.velocity) {
@@ -175,7 +175,58 @@ class BatchCheck {
   Check operator()(const Reset&) {
     if (auto bad = check_control("reset")) return bad;
     overlay_.reset();
+    joints_.reset();
     return std::nullopt;
+  }
+
+  Check operator()(const CreateJoint& command) {
+    const JointSpec& spec = command.joint;
+    if (auto bad = check_joint_name(spec.name)) {
+      bad->field = "create_joint.joint." + bad->field;
+      return bad;
+    }
+    if (!spec.name.empty() && joints_.find(JointRef(spec.name))) {
+      return reject(RejectionCode::kDuplicateName, "create_joint.joint.name", spec.name,
+                    "A joint of this name is in the room already.");
+    }
+    if (joints_.count() >= context_.limits.joints_max) {
+      return reject(RejectionCode::kQuota, "create_joint.joint", std::to_string(joints_.count()),
+                    "The room holds as many joints as it may: " + std::to_string(context_.limits.joints_max) + ".");
+    }
+    if (const Status status = context_.world.check_joint(spec.def); !status) {
+      return rejection_from(status.error(), "create_joint.joint.");
+    }
+    if (auto bad = check_joint_bodies(spec)) return bad;
+    std::optional<BodyRef> a;
+    if (spec.body_a) a = overlay_.find(*spec.body_a)->key;
+    joints_.create(spec, a, overlay_.find(spec.body_b)->key);
+    return std::nullopt;
+  }
+
+  Check operator()(const DestroyJoint& command) {
+    if (auto bad = check_joint("destroy_joint", command.joint)) return bad;
+    joints_.destroy(command.joint);
+    return std::nullopt;
+  }
+
+  Check operator()(const SetMotor& command) const {
+    if (auto bad = check_joint("set_motor", command.joint)) return bad;
+    const JointKind kind = *joints_.find(command.joint);
+    if (kind != JointKind::kRevolute && kind != JointKind::kPrismatic) {
+      return reject(RejectionCode::kWrongJointKind, "set_motor.joint", ref_text(command.joint),
+                    "Only revolute and prismatic joints have a motor.");
+    }
+    if (auto bad = check_bound("set_motor.motor.speed", command.motor.speed, kSpeedMax)) return bad;
+    return check_range("set_motor.motor.bound", command.motor.bound, 0, kJointForceMax);
+  }
+
+  Check operator()(const SetTarget& command) const {
+    if (auto bad = check_joint("set_target", command.joint)) return bad;
+    if (*joints_.find(command.joint) != JointKind::kMouse) {
+      return reject(RejectionCode::kWrongJointKind, "set_target.joint", ref_text(command.joint),
+                    "Only mouse joints have a target.");
+    }
+    return check_vector("set_target.target", command.target, kCoordinateMax);
   }
 
   Check operator()(const SetTimeScale& command) const {
@@ -216,17 +267,58 @@ class BatchCheck {
   Check check_query(const DiagnosticsQuery&) const { return std::nullopt; }
   Check check_query(const BodyQuery& query) const { return check_target("query.body", query.body); }
 
+  Check check_query(const JointsQuery&) const { return std::nullopt; }
+
+  Check check_joint(const std::string& command, const JointRef& ref) const {
+    if (joints_.find(ref)) return std::nullopt;
+    const bool by_id = std::holds_alternative<JointId>(ref);
+    return reject(RejectionCode::kUnknownJoint, command + (by_id ? ".joint.id" : ".joint.name"), ref_text(ref),
+                  "No joint of this room has this " + std::string(by_id ? "id." : "name."));
+  }
+
+  // The bodies that the engine will find when the joint is made.
+  Check check_joint_bodies(const JointSpec& spec) const {
+    const std::string path = "create_joint.joint.";
+    const bool mouse = std::holds_alternative<MouseJoint>(spec.def.geometry);
+    if (mouse == spec.body_a.has_value()) {
+      return reject(RejectionCode::kInvalidValue, path + "body_a", spec.body_a ? ref_text(*spec.body_a) : "",
+                    mouse ? "A mouse joint has no body a." : "A joint needs a body a.");
+    }
+    const auto b = overlay_.find(spec.body_b);
+    if (!b) return unknown_body(path + "body_b", spec.body_b);
+    bool dynamic = b->type == BodyType::kDynamic;
+    if (spec.body_a) {
+      const auto a = overlay_.find(*spec.body_a);
+      if (!a) return unknown_body(path + "body_a", *spec.body_a);
+      dynamic |= a->type == BodyType::kDynamic;
+      if (a->key == b->key) {
+        return reject(RejectionCode::kInvalidValue, path + "body_b", ref_text(spec.body_b),
+                      "A joint has two different bodies.");
+      }
+    }
+    if (dynamic) return std::nullopt;
+    return reject(RejectionCode::kWrongBodyType, path + "body_b", ref_text(spec.body_b),
+                  "At least one body of a joint is dynamic.");
+  }
+
+  static Rejection unknown_body(const std::string& path, const BodyRef& ref) {
+    const bool by_id = std::holds_alternative<BodyId>(ref);
+    return reject(RejectionCode::kUnknownBody, path + (by_id ? ".id" : ".name"), ref_text(ref),
+                  "No body of this room has this " + std::string(by_id ? "id." : "name."));
+  }
+
   Check check_target(const std::string& command, const BodyRef& ref) const {
     if (overlay_.find(ref)) return std::nullopt;
     const bool by_id = std::holds_alternative<BodyId>(ref);
-    return reject(RejectionCode::kUnknownBody, command + (by_id ? ".body.id" : ".body.name"), text_of(ref),
+    return reject(RejectionCode::kUnknownBody, command + (by_id ? ".body.id" : ".body.name"), ref_text(ref),
                   "No body of this room has this " + std::string(by_id ? "id." : "name."));
   }
 
   Check check_dynamic(const std::string& command, const BodyRef& ref) const {
     if (auto bad = check_target(command, ref)) return bad;
     if (overlay_.find(ref)->type == BodyType::kDynamic) return std::nullopt;
-    return reject(RejectionCode::kWrongBodyType, command + ".body", text_of(ref), "Only dynamic bodies can be pushed.");
+    return reject(RejectionCode::kWrongBodyType, command + ".body", ref_text(ref),
+                  "Only dynamic bodies can be pushed.");
   }
 
   Check check_control(const std::string& command) const {
@@ -237,6 +329,7 @@ class BatchCheck {
   const AdmissionContext& context_;
   const std::string& user_;
   BatchOverlay overlay_;
+  JointOverlay joints_;
 };
 
 RejectionCode code_from(ErrorCode code) {
@@ -250,9 +343,11 @@ RejectionCode code_from(ErrorCode code) {
     case ErrorCode::kWrongBodyType:
       return RejectionCode::kWrongBodyType;
     case ErrorCode::kUnknownJoint:
+      return RejectionCode::kUnknownJoint;
     case ErrorCode::kWrongJointKind:
+      return RejectionCode::kWrongJointKind;
     case ErrorCode::kNotSupported:
-      return RejectionCode::kInvalidValue;  // no command asks for joints
+      return RejectionCode::kNotSupported;
     case ErrorCode::kLimitReached:
       return RejectionCode::kQuota;
     case ErrorCode::kCorruptState:
@@ -262,6 +357,12 @@ RejectionCode code_from(ErrorCode code) {
 }
 
 }  // namespace
+
+// A body's reference or a joint's: both are an id or a name.
+std::string ref_text(const BodyRef& ref) {
+  if (const auto* id = std::get_if<BodyId>(&ref)) return std::to_string(*id);
+  return std::get<std::string>(ref);
+}
 
 bool Roles::may_control(const std::string& user) const {
   switch (control) {
@@ -278,6 +379,8 @@ bool Roles::may_control(const std::string& user) const {
 Rejection rejection_from(const Error& error, const std::string& prefix) {
   return reject(code_from(error.code), prefix + error.field, error.value, error.message);
 }
+
+std::optional<Rejection> check_joint_name(const std::string& name) { return check_text("name", name, kNameBytesMax); }
 
 std::optional<Rejection> check_labels(const BodySpec& spec) {
   if (auto bad = check_text("name", spec.name, kNameBytesMax)) return bad;

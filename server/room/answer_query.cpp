@@ -63,12 +63,31 @@ struct Visitor {
     result.body = std::move(*info);
     return result;
   }
+
+  Answered operator()(const JointsQuery&) const {
+    auto infos = joint_infos(context.world, context.joints);
+    if (!infos) return tl::unexpected<Error>(infos.error());
+    QueryResult result;
+    result.joints = std::move(*infos);
+    return result;
+  }
 };
 
 }  // namespace
 
 Expected<QueryResult> answer_query(const QueryContext& context, const RoomQuery& query) {
   return std::visit(Visitor{context}, query);
+}
+
+Expected<std::vector<JointInfo>> joint_infos(const World& world, const JointRegistry& joints) {
+  std::vector<JointInfo> infos;
+  infos.reserve(joints.count());
+  for (const auto& [id, record] : joints.all()) {
+    auto state = world.joint(id);
+    if (!state) return tl::unexpected<Error>(state.error());
+    infos.push_back({record, *state});
+  }
+  return infos;
 }
 
 Expected<BodyInfo> body_info(const World& world, BodyRecordPtr record) {

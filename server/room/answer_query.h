@@ -12,6 +12,7 @@ namespace urto {
 struct QueryContext {
   const World& world;
   const BodyRegistry& bodies;
+  const JointRegistry& joints;
   std::function<Diagnostics()> diagnostics;
 };
 
@@ -20,5 +21,8 @@ Expected<QueryResult> answer_query(const QueryContext& context, const RoomQuery&
 
 // Of a body that exists.
 Expected<BodyInfo> body_info(const World& world, BodyRecordPtr record);
+
+// Of every joint, ascending id.
+Expected<std::vector<JointInfo>> joint_infos(const World& world, const JointRegistry& joints);
 
 }  // namespace urto

@@ -59,6 +59,7 @@ class Room::Applier {
     const BodyId id = target(command.body);
     if (Status status = world().remove_body(id); !status) return tl::unexpected<Error>(status.error());
     room_.bodies_.remove(id);
+    room_.joints_.remove_joints_of(id);
     room_.force_ends_.erase(id);
     room_.log(BodyRemoved{id, ++room_.layout_, user_});
     return CommandResult{};
@@ -131,6 +132,7 @@ class Room::Applier {
     std::move(cancelled.begin(), cancelled.end(), std::back_inserter(result_.answers));
     room_.world_ = std::move(built->world);
     room_.bodies_ = std::move(built->bodies);
+    room_.joints_ = std::move(built->joints);
     room_.force_ends_.clear();
     ++room_.epoch_;
     ++room_.layout_;
@@ -142,6 +144,33 @@ class Room::Applier {
     return CommandResult{};
   }
 
+  Done operator()(const CreateJoint& command) {
+    JointSpec spec = command.joint;
+    if (spec.body_a) spec.def.body_a = target(*spec.body_a);
+    spec.def.body_b = target(spec.body_b);
+    const auto id = world().add_joint(spec.def);
+    if (!id) return tl::unexpected<Error>(id.error());
+    const auto record = std::make_shared<JointRecord>(JointRecord{*id, std::move(spec), user_});
+    room_.joints_.add(record);
+    ++room_.layout_;
+    room_.log(JointAdded{record});
+    CommandResult done;
+    done.id = *id;
+    return done;
+  }
+
+  Done operator()(const DestroyJoint& command) {
+    const JointId id = joint(command.joint);
+    if (Status status = world().remove_joint(id); !status) return tl::unexpected<Error>(status.error());
+    room_.joints_.remove(id);
+    ++room_.layout_;
+    room_.log(JointRemoved{id, user_});
+    return CommandResult{};
+  }
+
+  Done operator()(const SetMotor& command) { return done(world().set_motor(joint(command.joint), command.motor)); }
+  Done operator()(const SetTarget& command) { return done(world().set_target(joint(command.joint), command.target)); }
+
   Done operator()(const SetTimeScale& command) {
     if (room_.time_scale_ != command.scale) room_.log(TimeScaleChanged{user_, command.scale});
     room_.time_scale_ = command.scale;
@@ -152,7 +181,7 @@ class Room::Applier {
     const auto diagnostics = [this] {
       return Diagnostics{room_.tick_, room_.sim_time(), world().state_hash(), room_.statistics()};
     };
-    auto answer = answer_query({world(), room_.bodies_, diagnostics}, query);
+    auto answer = answer_query({world(), room_.bodies_, room_.joints_, diagnostics}, query);
     if (!answer) return tl::unexpected<Error>(answer.error());
     CommandResult done;
     done.query = std::move(*answer);
@@ -162,6 +191,8 @@ class Room::Applier {
  private:
   World& world() { return *room_.world_; }
   BodyId target(const BodyRef& ref) const { return room_.bodies_.find(ref)->id; }
+
+  JointId joint(const JointRef& ref) const { return room_.joints_.find(ref)->id; }
 
   static Done done(const Status& status) {
     if (!status) return tl::unexpected<Error>(status.error());
@@ -180,6 +211,8 @@ Expected<std::unique_ptr<Room>> Room::create(RoomSettings settings, SceneDef sce
   room->world_ = std::move(built->world);
   room->bodies_ = std::move(built->bodies);
   room->scene_bodies_ = room->bodies_;
+  room->joints_ = std::move(built->joints);
+  room->scene_joints_ = room->joints_;
   return room;
 }
 
@@ -191,8 +224,9 @@ void Room::apply_commands(TickResult& result) {
 
 void Room::apply_batch(Submission& submission, TickResult& result) {
   const CommandBatch& batch = submission.batch;
-  const AdmissionContext context{settings_.limits, settings_.roles,      *world_, bodies_, scene_bodies_,
-                                 paused_,          waiting_steps_.size()};
+  const AdmissionContext context{settings_.limits, settings_.roles, *world_,
+                                 bodies_,          scene_bodies_,   joints_,
+                                 scene_joints_,    paused_,         waiting_steps_.size()};
   if (auto bad = check_batch(context, submission.user, batch)) {
     reject_batch(submission, std::move(*bad), result);
     return;

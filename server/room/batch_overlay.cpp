@@ -15,12 +15,12 @@ std::optional<BatchOverlay::Target> BatchOverlay::find(const BodyRef& ref) const
   if (const auto* name = std::get_if<std::string>(&ref)) {
     if (const auto it = by_name_.find(*name); it != by_name_.end()) {
       if (!it->second) return std::nullopt;
-      return Target{it->second->type};
+      return Target{it->second->type, *name};
     }
   }
   const BodyRecordPtr record = base_->find(ref);
   if (!record || removed_.contains(record->id)) return std::nullopt;
-  return Target{record->spec.def.type};
+  return Target{record->spec.def.type, record->id};
 }
 
 void BatchOverlay::spawn(const BodySpec& spec) {

@@ -19,6 +19,7 @@ class BatchOverlay {
 
   struct Target {
     BodyType type = BodyType::kDynamic;
+    BodyRef key = BodyId{0};  // its id, or its name if this batch spawns it
   };
   std::optional<Target> find(const BodyRef& ref) const;
 

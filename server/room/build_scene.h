@@ -5,6 +5,7 @@
 
 #include "physics/world.h"
 #include "room/body_registry.h"
+#include "room/joint_registry.h"
 #include "room/limits.h"
 #include "room/scene.h"
 
@@ -15,6 +16,7 @@ using WorldFactory = std::function<Expected<std::unique_ptr<World>>(const WorldS
 struct BuiltScene {
   std::unique_ptr<World> world;
   BodyRegistry bodies;
+  JointRegistry joints;
 };
 
 // The world of a scene at tick 0. Equal scenes give equal worlds with equal ids.

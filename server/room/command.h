@@ -14,8 +14,8 @@
 
 namespace urto {
 
-// A body of the room: by id, or by the name it was spawned with (also earlier in the same batch).
-using BodyRef = std::variant<BodyId, std::string>;
+// A joint of the room: by id, or by the name it was made with (also earlier in the same batch).
+using JointRef = std::variant<JointId, std::string>;
 
 struct Spawn {
   BodySpec body;
@@ -55,6 +55,21 @@ struct SetTransform {
   std::optional<double> angle = std::nullopt;   // rad
 };
 
+struct CreateJoint {
+  JointSpec joint;
+};
+struct DestroyJoint {
+  JointRef joint;
+};
+struct SetMotor {
+  JointRef joint;
+  JointMotor motor;
+};
+struct SetTarget {
+  JointRef joint;
+  Vec2 target{0, 0};  // m, world frame
+};
+
 struct Pause {};
 struct Resume {};
 struct Step {
@@ -84,11 +99,12 @@ struct DiagnosticsQuery {};
 struct BodyQuery {
   BodyRef body;
 };
-using RoomQuery =
-    std::variant<PointQuery, RegionQuery, RayQuery, NearestQuery, ContactsQuery, DiagnosticsQuery, BodyQuery>;
+struct JointsQuery {};
+using RoomQuery = std::variant<PointQuery, RegionQuery, RayQuery, NearestQuery, ContactsQuery, DiagnosticsQuery,
+                               BodyQuery, JointsQuery>;
 
 using Command = std::variant<Spawn, Despawn, Impulse, Force, SetVelocity, SetTransform, Pause, Resume, Step, Reset,
-                             SetTimeScale, RoomQuery>;
+                             SetTimeScale, CreateJoint, DestroyJoint, SetMotor, SetTarget, RoomQuery>;
 
 // Commands that take effect together: at one tick, in order, or none of them.
 struct CommandBatch {

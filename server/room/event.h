@@ -6,6 +6,7 @@
 
 #include "physics/world.h"
 #include "room/body_registry.h"
+#include "room/joint_registry.h"
 
 namespace urto {
 
@@ -16,6 +17,13 @@ struct BodyAdded {
 struct BodyRemoved {
   BodyId id = 0;
   std::uint64_t layout = 0;
+  std::string user;
+};
+struct JointAdded {
+  JointRecordPtr joint;
+};
+struct JointRemoved {
+  JointId id = 0;
   std::string user;
 };
 struct MemberJoined {
@@ -50,7 +58,8 @@ struct EventsDropped {
   std::uint32_t count = 0;
 };
 
-using Event = std::variant<ContactEvent, BodyAdded, BodyRemoved, MemberJoined, MemberLeft, RoomPaused, RoomResumed,
-                           RoomReset, TimeScaleChanged, BatchRejected, EventsDropped>;
+using Event =
+    std::variant<ContactEvent, BodyAdded, BodyRemoved, MemberJoined, MemberLeft, RoomPaused, RoomResumed, RoomReset,
+                 TimeScaleChanged, BatchRejected, EventsDropped, JointAdded, JointRemoved, JointEvent>;
 
 }  // namespace urto

@@ -21,7 +21,7 @@ struct Frame {
   std::uint32_t epoch = 0;   // grows with each reset
   std::uint64_t tick = 0;    // ticks done since the start or the reset
   double sim_time = 0;       // s, tick · time step
-  std::uint64_t layout = 0;  // grows whenever a body is added or removed
+  std::uint64_t layout = 0;  // grows whenever a body or a joint is added or removed
   Precision precision = Precision::kFloat;
   BodyColumns bodies;
   bool full = false;  // static bodies are in it

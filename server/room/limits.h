@@ -9,6 +9,7 @@ namespace urto {
 struct Limits {
   std::uint32_t bodies_max = 20'000;
   std::uint32_t shapes_max = 100'000;  // of all bodies, as described; decomposition may make more
+  std::uint32_t joints_max = 40'000;
   std::uint32_t batch_commands_max = 1024;
   std::uint32_t queue_batches_max = 256;       // waiting, per user
   std::uint32_t batches_per_tick_max = 64;     // applied, per user and tick

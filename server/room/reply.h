@@ -9,6 +9,7 @@
 #include "room/body_registry.h"
 #include "room/command.h"
 #include "room/frame.h"
+#include "room/joint_registry.h"
 
 namespace urto {
 
@@ -25,6 +26,9 @@ enum class RejectionCode : std::uint8_t {
   kQueueFull = 9,
   kNotPaused = 10,
   kCancelled = 11,
+  kUnknownJoint = 12,
+  kWrongJointKind = 13,
+  kNotSupported = 14,
 };
 
 // Why a batch was not done.
@@ -40,6 +44,12 @@ struct Rejection {
 struct BodyInfo {
   BodyRecordPtr record;
   BodyState state;
+};
+
+// A joint with what the world says of it now.
+struct JointInfo {
+  JointRecordPtr record;
+  JointState state;
 };
 
 struct BodyHit {
@@ -62,10 +72,11 @@ struct QueryResult {
   std::optional<std::vector<ContactPoint>> contacts;
   std::optional<Diagnostics> diagnostics;
   std::optional<BodyInfo> body;
+  std::optional<std::vector<JointInfo>> joints;
 };
 
 struct CommandResult {
-  BodyId id = 0;                          // spawn
+  BodyId id = 0;                          // spawn, create_joint
   std::optional<QueryResult> query;       // query
   std::shared_ptr<const Frame> snapshot;  // step
 };

@@ -85,6 +85,7 @@ void Room::step_world() {
   ++turn_;
   end_forces();
   log_contacts();
+  log_broken_joints();
   const std::lock_guard lock(shared_mutex_);
   shared_tick_ = tick_;
 }
@@ -103,6 +104,14 @@ void Room::log_contacts() {
   const std::size_t kept = std::min<std::size_t>(contacts.size(), settings_.limits.contact_events_per_tick_max);
   for (const ContactEvent& contact : contacts.first(kept)) log(contact);
   if (kept < contacts.size()) log(EventsDropped{static_cast<std::uint32_t>(contacts.size() - kept)});
+}
+
+void Room::log_broken_joints() {
+  for (const JointEvent& broken : world_->joint_events()) {
+    joints_.remove(broken.joint);
+    ++layout_;
+    log(broken);
+  }
 }
 
 void Room::log_refusals() {
@@ -219,6 +228,9 @@ Expected<RoomView> Room::view(const ViewParts& parts) const {
     if (!info) return tl::unexpected<Error>(info.error());
     view.bodies.push_back(std::move(*info));
   }
+  auto joints = joint_infos(*world_, joints_);
+  if (!joints) return tl::unexpected<Error>(joints.error());
+  view.joints = std::move(*joints);
   return view;
 }
 

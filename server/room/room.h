@@ -52,6 +52,7 @@ struct RoomView {
   Statistics statistics;
   // The rest is there only if asked for.
   std::vector<BodyInfo> bodies;        // ascending id
+  std::vector<JointInfo> joints;       // ascending id
   std::shared_ptr<const Frame> frame;  // full
   std::vector<std::byte> saved_state;
 };
@@ -123,6 +124,7 @@ class Room {
   void step_world();
   void end_forces();
   void log_contacts();
+  void log_broken_joints();
   void log_refusals();
   void answer_steps(TickResult& result);
   void capture_frame(TickResult& result);
@@ -140,7 +142,9 @@ class Room {
 
   std::unique_ptr<World> world_;
   BodyRegistry bodies_;
-  BodyRegistry scene_bodies_;                   // as they are after every reset: the world gives the same ids again
+  BodyRegistry scene_bodies_;  // as they are after every reset: the world gives the same ids again
+  JointRegistry joints_;
+  JointRegistry scene_joints_;                  // likewise
   std::map<BodyId, std::uint64_t> force_ends_;  // the tick after which a force ends
 
   CommandQueue queue_;

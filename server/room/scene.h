@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "physics/definitions.h"
+#include "physics/joint_definitions.h"
 
 namespace urto {
 
@@ -17,6 +17,17 @@ struct BodySpec {
   std::vector<std::string> tags;  // at most kTagsMax, each at most kTagBytesMax bytes
   BodyDef def;
   std::optional<std::uint32_t> color;  // 0xRRGGBB
+};
+
+// A body of the room: by id, or by the name it was spawned with (also earlier in the same batch).
+using BodyRef = std::variant<BodyId, std::string>;
+
+// A joint as a scene or a command describes it. The bodies of `def` are found by these references.
+struct JointSpec {
+  std::string name;               // empty or unique among the room's joints, at most kNameBytesMax bytes
+  std::optional<BodyRef> body_a;  // none of a mouse joint
+  BodyRef body_b;
+  JointDef def;
 };
 
 // What a body counts against a room's shapes_max: each segment of a chain is a shape.
@@ -41,6 +52,7 @@ struct SceneDef {
   std::string description;
   WorldSettings world;
   std::vector<BodySpec> bodies;
+  std::vector<JointSpec> joints;
   std::optional<View> view;
 };
 

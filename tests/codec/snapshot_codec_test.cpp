@@ -23,7 +23,7 @@ Frame small_frame(Precision precision) {
   frame.event_sequence = 12;
   frame.state_hash = 0xfedcba9876543210u;
   frame.full = true;
-  frame.statistics.counters = {10, 5, 12, 20, 3, 0.001};
+  frame.statistics.counters = {10, 5, 12, 0, 20, 3, 0.001};
   frame.statistics.profile.step_ms = 1.5;
   frame.statistics.profile.ms[1] = 0.75;
   frame.statistics.energy.kinetic = 8;

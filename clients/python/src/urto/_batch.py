@@ -11,6 +11,7 @@ from urto._bodies import Spawnable, VectorLike
 from urto._commands import BodyRef, FrameName
 from urto._exceptions import ClosedError, InvalidArgument, ProtocolError
 from urto._handle import Handle
+from urto._joints import Joint, JointRef, Motor, with_bodies
 from urto._proto.v1 import command_pb2
 
 H = TypeVar("H", bound=Handle)
@@ -86,6 +87,22 @@ class Batch(Generic[H]):
     def set_transform(self, body: BodyRef, position: VectorLike | None = None, *, angle: float | None = None) -> None:
         """See `BodyHandle.set_transform`."""
         self._add(_commands.set_transform(self._named(body), position, angle))
+
+    def create_joint(self, joint: Joint) -> None:
+        """Joins two bodies, also ones of this batch. Give it a name to refer to it."""
+        self._add(_commands.create_joint(with_bodies(joint, self._named)))
+
+    def destroy_joint(self, joint: JointRef) -> None:
+        """See `Room.destroy_joint`."""
+        self._add(_commands.destroy_joint(joint))
+
+    def set_motor(self, joint: JointRef, motor: Motor) -> None:
+        """See `Room.set_motor`."""
+        self._add(_commands.set_motor(joint, motor))
+
+    def set_target(self, joint: JointRef, target: VectorLike) -> None:
+        """See `Room.set_target`."""
+        self._add(_commands.set_target(joint, target))
 
     def pause(self) -> None:
         """Time stands still from here on."""

@@ -6,11 +6,10 @@ from typing import Literal, TypeAlias
 
 from urto._bodies import Spawnable, VectorLike, body_to_proto, to_number, vector_to_proto
 from urto._exceptions import InvalidArgument
-from urto._handle import Handle
+from urto._joints import BodyRef, Joint, JointRef, Motor, body_ref, joint_ref
 from urto._proto.v1 import command_pb2
 
-BodyRef: TypeAlias = Handle | int | str
-"""A body: its handle, its id, or its name."""
+__all__ = ["BodyRef", "FrameName", "JointRef"]
 
 FrameName: TypeAlias = Literal["world", "body"]
 
@@ -21,16 +20,6 @@ def _frame(name: str) -> command_pb2.Frame:
     if name not in _FRAMES:
         raise InvalidArgument(f"frame must be 'world' or 'body', not {name!r}")
     return _FRAMES[name]
-
-
-def body_ref(body: BodyRef) -> command_pb2.BodyRef:
-    if isinstance(body, Handle):
-        return body._to_proto()
-    if isinstance(body, str):
-        return command_pb2.BodyRef(name=body)
-    if isinstance(body, int) and not isinstance(body, bool) and 0 <= body < 2**64:
-        return command_pb2.BodyRef(id=body)
-    raise InvalidArgument(f"a body is a handle, an id or a name, not {body!r}")
 
 
 def spawn(description: Spawnable) -> command_pb2.Command:
@@ -85,6 +74,24 @@ def set_transform(body: BodyRef, position: VectorLike | None, angle: float | Non
     if angle is not None:
         message.angle = to_number("angle", angle)
     return command_pb2.Command(set_transform=message)
+
+
+def create_joint(joint: Joint) -> command_pb2.Command:
+    return command_pb2.Command(create_joint=command_pb2.CreateJoint(joint=joint._to_proto()))
+
+
+def destroy_joint(joint: JointRef) -> command_pb2.Command:
+    return command_pb2.Command(destroy_joint=command_pb2.DestroyJoint(joint=joint_ref(joint)))
+
+
+def set_motor(joint: JointRef, motor: Motor) -> command_pb2.Command:
+    return command_pb2.Command(set_motor=command_pb2.SetMotor(joint=joint_ref(joint), motor=motor._to_proto()))
+
+
+def set_target(joint: JointRef, target: VectorLike) -> command_pb2.Command:
+    return command_pb2.Command(
+        set_target=command_pb2.SetTarget(joint=joint_ref(joint), target=vector_to_proto("target", target))
+    )
 
 
 def pause() -> command_pb2.Command:
@@ -148,3 +155,7 @@ def query_diagnostics() -> command_pb2.Command:
 
 def query_body(body: BodyRef) -> command_pb2.Command:
     return _query(command_pb2.Query(body=command_pb2.BodyQuery(body=body_ref(body))))
+
+
+def query_joints() -> command_pb2.Command:
+    return _query(command_pb2.Query(joints=command_pb2.JointsQuery()))

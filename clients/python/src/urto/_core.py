@@ -18,6 +18,7 @@ from google.protobuf.message import DecodeError, Message
 from urto import _commands, _keys
 from urto._batch import Batch
 from urto._bodies import BodyInfo, Vector, body_info_from_proto, vector_from_proto
+from urto._joints import Joint, JointInfo, joint_info_from_proto
 from urto._events import Event, event_from_proto
 from urto._exceptions import (
     ClosedError,
@@ -85,6 +86,7 @@ class RoomState:
     Attributes:
         info: what the room says about itself.
         bodies: every body, ascending id.
+        joints: every joint, ascending id.
         frame: full, of the same tick.
         view: lower and upper corner of what a viewer should frame at first, m; None if the scene does not say.
         saved_state: the world's saved state, if it was asked for; else empty.
@@ -92,6 +94,7 @@ class RoomState:
 
     info: RoomInfo
     bodies: tuple[BodyInfo, ...]
+    joints: tuple[JointInfo, ...]
     frame: Frame
     view: tuple[Vector, Vector] | None
     saved_state: bytes
@@ -369,6 +372,7 @@ class Core:
         return RoomState(
             info=room_info_from_proto(message.info),
             bodies=tuple(body_info_from_proto(body) for body in message.bodies),
+            joints=tuple(joint_info_from_proto(joint) for joint in message.joints),
             frame=frame_from_proto(message.snapshot),
             view=_view(message.scene),
             saved_state=message.saved_state,
@@ -392,6 +396,16 @@ class Core:
         if not result.HasField("body"):
             raise ProtocolError("the answer to a query for a body holds none")
         return body_info_from_proto(result.body)
+
+    def create_joint(self, joint: Joint) -> Op[int]:
+        """The new joint's id."""
+        reply = yield from self.execute([_commands.create_joint(joint)])
+        joint_id: int = reply.results[0].id
+        return joint_id
+
+    def joints(self) -> Op[tuple[JointInfo, ...]]:
+        result = yield from self.query(_commands.query_joints())
+        return tuple(joint_info_from_proto(joint) for joint in result.joints.joints)
 
     def contacts(self) -> Op[Contacts]:
         result = yield from self.query(_commands.query_contacts())

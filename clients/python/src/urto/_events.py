@@ -58,6 +58,38 @@ class BodyRemoved(EventBase):
 
 
 @dataclass(frozen=True, kw_only=True)
+class JointAdded(EventBase):
+    """A joint was made by `user`; bodies are ids, `body_a` is 0 of a mouse joint."""
+
+    id: int
+    name: str
+    kind: str
+    body_a: int
+    body_b: int
+    user: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class JointRemoved(EventBase):
+    """A joint was taken away by `user`. Those of a removed body go without this event."""
+
+    id: int
+    user: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class JointBroke(EventBase):
+    """A joint carried more than it could: `force` in N and `torque` in N·m at `point` (m, world frame). It is gone."""
+
+    id: int
+    body_a: int
+    body_b: int
+    point: Vector
+    force: float
+    torque: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class MemberJoined(EventBase):
     """A client entered the room."""
 
@@ -126,7 +158,8 @@ class UnknownEvent(EventBase):
 
 Event: TypeAlias = (
     ContactBegin | ContactEnd | BodyAdded | BodyRemoved | MemberJoined | MemberLeft | RoomPaused | RoomResumed
-    | RoomReset | TimeScaleChanged | BatchRejected | EventsDropped | UnknownEvent
+    | RoomReset | TimeScaleChanged | BatchRejected | EventsDropped | JointAdded | JointRemoved | JointBroke
+    | UnknownEvent
 )  # fmt: skip
 """Any event of a room."""
 
@@ -155,6 +188,23 @@ def event_from_proto(sequence: int, message: snapshot_pb2.Event) -> Event:  # no
             removed = message.body_removed
             return BodyRemoved(
                 sequence=sequence, tick=tick, id=removed.id, layout=removed.layout, user=removed.user
+            )  # fmt: skip
+        case "joint_added":
+            made = message.joint_added
+            return JointAdded(
+                sequence=sequence, tick=tick, id=made.id, name=made.joint.name,
+                kind=made.joint.WhichOneof("kind") or "", body_a=made.joint.body_a.id, body_b=made.joint.body_b.id,
+                user=made.user,
+            )  # fmt: skip
+        case "joint_removed":
+            return JointRemoved(
+                sequence=sequence, tick=tick, id=message.joint_removed.id, user=message.joint_removed.user
+            )
+        case "joint_broke":
+            broke = message.joint_broke
+            return JointBroke(
+                sequence=sequence, tick=tick, id=broke.id, body_a=broke.body_a, body_b=broke.body_b,
+                point=vector_from_proto(broke.point), force=broke.force, torque=broke.torque,
             )  # fmt: skip
         case "member_joined":
             joined = message.member_joined

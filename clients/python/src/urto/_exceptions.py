@@ -20,7 +20,10 @@ UrtoError
     ├── QuotaExceeded               a limit of the room on bodies, shapes, or batch size
     ├── QueueFull                   more commands waiting than the member's queue holds
     ├── NotPaused                   step needs a paused room
-    └── Cancelled                   a reset or shutdown overtook the step
+    ├── Cancelled                   a reset or shutdown overtook the step
+    ├── UnknownJoint                no joint of that id or name
+    ├── WrongJointKind              a motor of a weld, say
+    └── NotSupported                the solver of the room cannot do it
 """
 
 from __future__ import annotations
@@ -172,11 +175,29 @@ class Cancelled(Rejected):
     code = "CANCELLED"
 
 
+class UnknownJoint(Rejected):
+    """No joint of that id or name is in the room."""
+
+    code = "UNKNOWN_JOINT"
+
+
+class WrongJointKind(Rejected):
+    """The command does not go with the kind of the joint: a motor of a weld, say."""
+
+    code = "WRONG_JOINT_KIND"
+
+
+class NotSupported(Rejected):
+    """The solver of the room cannot do it."""
+
+    code = "NOT_SUPPORTED"
+
+
 _REJECTIONS: dict[str, type[Rejected]] = {
     kind.code: kind
     for kind in (
         Malformed, InvalidValue, UnknownBody, DuplicateName, DegenerateShape, WrongBodyType, NotPermitted,
-        QuotaExceeded, QueueFull, NotPaused, Cancelled,
+        QuotaExceeded, QueueFull, NotPaused, Cancelled, UnknownJoint, WrongJointKind, NotSupported,
     )
 }  # fmt: skip
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urto._exceptions import InvalidArgument
-from urto._proto.v1 import command_pb2
+from urto._proto.v1 import scene_pb2
 
 
 class Handle:
@@ -29,8 +29,8 @@ class Handle:
         """Gives the handle its id when the answer to its batch is there."""
         self._id = body_id
 
-    def _to_proto(self) -> command_pb2.BodyRef:
-        return command_pb2.BodyRef(id=self._id) if self._id else command_pb2.BodyRef(name=self.name)
+    def _to_proto(self) -> scene_pb2.BodyRef:
+        return scene_pb2.BodyRef(id=self._id) if self._id else scene_pb2.BodyRef(name=self.name)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Handle):

@@ -42,6 +42,7 @@ class Limits:
 
     bodies_max: int
     shapes_max: int
+    joints_max: int
     batch_commands_max: int
     queue_batches_max: int
     batches_per_tick_max: int
@@ -119,6 +120,7 @@ def room_info_from_proto(message: room_pb2.RoomInfo) -> RoomInfo:
         limits=Limits(
             bodies_max=limits.bodies_max,
             shapes_max=limits.shapes_max,
+            joints_max=limits.joints_max,
             batch_commands_max=limits.batch_commands_max,
             queue_batches_max=limits.queue_batches_max,
             batches_per_tick_max=limits.batches_per_tick_max,

@@ -17,6 +17,7 @@ from urto._events import Event
 from urto._frame import Contacts, Frame
 from urto._handle import Handle
 from urto._info import Diagnostics, RoomInfo
+from urto._joints import Joint, JointInfo, JointRef, Motor
 from urto._keys import DEFAULT_ENDPOINT
 from urto._op import run
 from urto._transport import Transport, ZenohTransport
@@ -204,6 +205,32 @@ class Room:
     def bodies(self) -> tuple[BodyInfo, ...]:
         """Every body with its shapes and where it is, ascending id."""
         return self.state().bodies
+
+    # Joints
+
+    def create_joint(self, joint: Joint) -> int:
+        """Joins two bodies; the joint's id.
+
+        Raises:
+            InvalidValue, UnknownBody, WrongBodyType, DuplicateName, QuotaExceeded, NotSupported: nothing was joined.
+        """
+        return run(self._core.create_joint(joint))
+
+    def destroy_joint(self, joint: JointRef) -> int:
+        """Takes a joint away, by its id or name. Returns the tick."""
+        return run(self._core.command(_commands.destroy_joint(joint)))
+
+    def set_motor(self, joint: JointRef, motor: Motor) -> int:
+        """Replaces the motor of a revolute joint (rad/s, N·m) or a prismatic one (m/s, N). Returns the tick."""
+        return run(self._core.command(_commands.set_motor(joint, motor)))
+
+    def set_target(self, joint: JointRef, target: VectorLike) -> int:
+        """Moves the point (m, world frame) that a mouse joint draws its body to. Returns the tick."""
+        return run(self._core.command(_commands.set_target(joint, target)))
+
+    def joints(self) -> tuple[JointInfo, ...]:
+        """Every joint with its position and what it carries, ascending id."""
+        return run(self._core.joints())
 
     # Time
 

@@ -9,7 +9,7 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from urto._frame import Contacts
-from urto._viewer.palette import BACKGROUND, CONTACT, GRID, TEXT, VELOCITY, Color, darker
+from urto._viewer.palette import BACKGROUND, CONTACT, GRID, JOINT, TEXT, VELOCITY, Color, darker
 from urto._viewer.shapes import LAYERS, Layer, ShapeSet, with_margin
 
 SUPERSAMPLING = 3
@@ -103,6 +103,7 @@ def draw_picture(
     step = canvas.grid()
     for name in LAYERS:
         _draw_layer(canvas, shapes, shapes.layers[name], filled=name != "sensors")
+    _draw_joints(canvas, shapes)
     if velocities:
         _draw_velocities(canvas, shapes)
     if contacts is not None:
@@ -119,6 +120,15 @@ def draw_picture(
     )
     size = canvas.width // SUPERSAMPLING, canvas.height // SUPERSAMPLING
     canvas.image.resize(size, Image.Resampling.LANCZOS).save(path, optimize=True)
+
+
+def _draw_joints(canvas: _Canvas, shapes: ShapeSet) -> None:
+    r = 1.5 * SUPERSAMPLING
+    for ends in shapes.joint_ends().tolist():
+        pixels = [canvas.px(x, y) for x, y in ends]
+        canvas.draw.line(pixels, fill=JOINT, width=SUPERSAMPLING)
+        for x, y in pixels:
+            canvas.draw.ellipse((x - r, y - r, x + r, y + r), fill=JOINT)
 
 
 def _draw_layer(canvas: _Canvas, shapes: ShapeSet, layer: Layer, filled: bool) -> None:

@@ -14,6 +14,7 @@ TEXT: Color = (150, 160, 178)
 STATIC: Color = (84, 93, 110)
 KINEMATIC: Color = (142, 124, 172)
 VELOCITY: Color = (235, 240, 250)
+JOINT: Color = (250, 240, 170)
 CONTACT: Color = (255, 84, 104)
 
 # Light enough for a dark background, neighbours far apart in hue so that bodies that touch can be told apart.

@@ -11,6 +11,7 @@ Overlays are 2D, in pixels of that camera: x − left, top − y.
     room/<layer>/spokes    a radius of every disc, which shows how it is turned
     room/<layer>/polygons  also capsules and what is rounded
     room/<layer>/lines     chains
+    room/camera/joints     lines between the anchors of joints, points where these meet
     plots/…                what the tick cost and held
     events                 a text log
 """
@@ -26,7 +27,7 @@ from urto._describe import describe
 from urto._events import ContactBegin, ContactEnd, Event, EventsDropped
 from urto._frame import Contacts, Frame
 from urto._info import RoomInfo
-from urto._viewer.palette import BACKGROUND, CONTACT, VELOCITY, darker
+from urto._viewer.palette import BACKGROUND, CONTACT, JOINT, VELOCITY, darker
 from urto._viewer.shapes import LAYERS, Layer, ShapeSet
 
 CAMERA = "room/camera"
@@ -48,6 +49,9 @@ VELOCITY_SECONDS = 0.25
 
 NORMAL_LENGTH = 0.012
 """Of the view's width."""
+
+JOINT_GAP = 0.02
+"""m: anchors nearer to each other than this are one point."""
 
 CONTACT_EVENTS_MAX = 20
 """Lines in the event log per frame that are about contacts; the rest is counted in one line."""
@@ -80,6 +84,7 @@ class RerunLog:
         self._left, self._lower, self._right, self._upper = bounds
         self._velocities = velocities
         self._contacts = contacts
+        self._had_joints = False  # what has been logged once has to be cleared
         self._log_camera()
         for plot, lines in _PLOTS.items():
             for name, label, color in lines:
@@ -136,10 +141,12 @@ class RerunLog:
             layer = shapes.layers[name]
             self._log_layer_layout(f"room/{name}", layer, ids, _WIRE if name == "sensors" else _SOLID)
         self._log_poses(shapes, LAYERS)
+        self._log_joints(shapes)
 
     def log_poses(self, shapes: ShapeSet) -> None:
         """Where the moving shapes are."""
         self._log_poses(shapes, ("bodies", "sensors"))
+        self._log_joints(shapes)
         if self._velocities:
             moving = np.hypot(shapes.poses.velocity[:, 0], shapes.poses.velocity[:, 1]) > 1e-3
             velocity = shapes.poses.velocity[moving] * VELOCITY_SECONDS * [1.0, -1.0]
@@ -150,6 +157,27 @@ class RerunLog:
                     radii=rr.Radius.ui_points(1.0), draw_order=40,
                 ),
             )
+
+    def _log_joints(self, shapes: ShapeSet) -> None:
+        """A line between the anchors of each joint; where they meet, a point."""
+        if not len(shapes.joints) and not self._had_joints:
+            return
+        self._had_joints = True
+        lines = shapes.joint_ends()
+        apart = np.hypot(*(lines[:, 1] - lines[:, 0]).T) > JOINT_GAP
+        self._stream.log(
+            f"{CAMERA}/joints/lines",
+            rr.LineStrips2D(
+                [self._to_pixels(line) for line in lines[apart]], colors=[JOINT], radii=rr.Radius.ui_points(1.0),
+                draw_order=35,
+            ),
+        )  # fmt: skip
+        self._stream.log(
+            f"{CAMERA}/joints/points",
+            rr.Points2D(
+                self._to_pixels(lines[~apart, 1]), colors=[JOINT], radii=rr.Radius.ui_points(2.0), draw_order=36
+            ),
+        )
 
     def log_contacts(self, contacts: Contacts) -> None:
         points = self._to_pixels(contacts.point)

@@ -11,6 +11,8 @@ import numpy.typing as npt
 
 from urto._bodies import BodyInfo, Box, Capsule, Chain, Circle, Polygon, Shape, Vector, to_vector
 from urto._frame import Frame
+from urto._joints import JointInfo
+from urto._viewer.joint_lines import JointLines
 from urto._viewer.palette import Color, body_color
 from urto._viewer.outline import capsule_outline, rounded_outline
 from urto._viewer.triangulate import triangulate
@@ -189,9 +191,10 @@ def _colors(colors: Iterable[Color]) -> npt.NDArray[np.uint8]:
 class ShapeSet:
     """All shapes of one layout of a room."""
 
-    def __init__(self, bodies: Sequence[BodyInfo]) -> None:
+    def __init__(self, bodies: Sequence[BodyInfo], joints: Sequence[JointInfo] = ()) -> None:
         self.bodies = tuple(bodies)
         self.poses = Poses(bodies)
+        self.joints = JointLines(joints, self.poses.ids)
         columns = {layer: _Columns() for layer in LAYERS}
         for row, info in enumerate(bodies):
             solid = "static" if info.body.type == "static" else "bodies"
@@ -199,6 +202,10 @@ class ShapeSet:
             for shape in info.body.shapes:
                 columns["sensors" if shape.sensor else solid].add(row, shape, color)
         self.layers = {layer: Layer(each) for layer, each in columns.items()}
+
+    def joint_ends(self) -> Floats:
+        """(n, 2, 2) m, world frame: where the anchors of each joint are."""
+        return self.joints.ends(self.poses.position, self.poses.angle)
 
     def bounds(self) -> tuple[float, float, float, float]:
         """Left, lower, right, upper in m of what a viewer should frame, without a margin."""

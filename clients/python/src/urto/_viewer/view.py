@@ -183,7 +183,7 @@ class _View:
         self._log_events()
 
     def _take_state(self, state: RoomState) -> None:
-        self.shapes = ShapeSet(state.bodies)
+        self.shapes = ShapeSet(state.bodies, state.joints)
         if state.frame.epoch != self._epoch:
             self._begin_recording(state)
         self._layout = state.frame.layout

@@ -17,11 +17,14 @@ REJECTION_CODE_INVALID_VALUE: RejectionCode
 REJECTION_CODE_MALFORMED: RejectionCode
 REJECTION_CODE_NOT_PAUSED: RejectionCode
 REJECTION_CODE_NOT_PERMITTED: RejectionCode
+REJECTION_CODE_NOT_SUPPORTED: RejectionCode
 REJECTION_CODE_QUEUE_FULL: RejectionCode
 REJECTION_CODE_QUOTA: RejectionCode
 REJECTION_CODE_UNKNOWN_BODY: RejectionCode
+REJECTION_CODE_UNKNOWN_JOINT: RejectionCode
 REJECTION_CODE_UNSPECIFIED: RejectionCode
 REJECTION_CODE_WRONG_BODY_TYPE: RejectionCode
+REJECTION_CODE_WRONG_JOINT_KIND: RejectionCode
 
 class BodyHit(_message.Message):
     __slots__ = ["distance", "fraction", "id", "normal", "point"]
@@ -40,44 +43,44 @@ class BodyHit(_message.Message):
 class BodyQuery(_message.Message):
     __slots__ = ["body"]
     BODY_FIELD_NUMBER: _ClassVar[int]
-    body: BodyRef
-    def __init__(self, body: _Optional[_Union[BodyRef, _Mapping]] = ...) -> None: ...
-
-class BodyRef(_message.Message):
-    __slots__ = ["id", "name"]
-    ID_FIELD_NUMBER: _ClassVar[int]
-    NAME_FIELD_NUMBER: _ClassVar[int]
-    id: int
-    name: str
-    def __init__(self, id: _Optional[int] = ..., name: _Optional[str] = ...) -> None: ...
+    body: _scene_pb2.BodyRef
+    def __init__(self, body: _Optional[_Union[_scene_pb2.BodyRef, _Mapping]] = ...) -> None: ...
 
 class Command(_message.Message):
-    __slots__ = ["despawn", "force", "impulse", "pause", "query", "reset", "resume", "set_time_scale", "set_transform", "set_velocity", "spawn", "step"]
+    __slots__ = ["create_joint", "despawn", "destroy_joint", "force", "impulse", "pause", "query", "reset", "resume", "set_motor", "set_target", "set_time_scale", "set_transform", "set_velocity", "spawn", "step"]
+    CREATE_JOINT_FIELD_NUMBER: _ClassVar[int]
     DESPAWN_FIELD_NUMBER: _ClassVar[int]
+    DESTROY_JOINT_FIELD_NUMBER: _ClassVar[int]
     FORCE_FIELD_NUMBER: _ClassVar[int]
     IMPULSE_FIELD_NUMBER: _ClassVar[int]
     PAUSE_FIELD_NUMBER: _ClassVar[int]
     QUERY_FIELD_NUMBER: _ClassVar[int]
     RESET_FIELD_NUMBER: _ClassVar[int]
     RESUME_FIELD_NUMBER: _ClassVar[int]
+    SET_MOTOR_FIELD_NUMBER: _ClassVar[int]
+    SET_TARGET_FIELD_NUMBER: _ClassVar[int]
     SET_TIME_SCALE_FIELD_NUMBER: _ClassVar[int]
     SET_TRANSFORM_FIELD_NUMBER: _ClassVar[int]
     SET_VELOCITY_FIELD_NUMBER: _ClassVar[int]
     SPAWN_FIELD_NUMBER: _ClassVar[int]
     STEP_FIELD_NUMBER: _ClassVar[int]
+    create_joint: CreateJoint
     despawn: Despawn
+    destroy_joint: DestroyJoint
     force: Force
     impulse: Impulse
     pause: Pause
     query: Query
     reset: Reset
     resume: Resume
+    set_motor: SetMotor
+    set_target: SetTarget
     set_time_scale: SetTimeScale
     set_transform: SetTransform
     set_velocity: SetVelocity
     spawn: Spawn
     step: Step
-    def __init__(self, spawn: _Optional[_Union[Spawn, _Mapping]] = ..., despawn: _Optional[_Union[Despawn, _Mapping]] = ..., impulse: _Optional[_Union[Impulse, _Mapping]] = ..., force: _Optional[_Union[Force, _Mapping]] = ..., set_velocity: _Optional[_Union[SetVelocity, _Mapping]] = ..., set_transform: _Optional[_Union[SetTransform, _Mapping]] = ..., pause: _Optional[_Union[Pause, _Mapping]] = ..., resume: _Optional[_Union[Resume, _Mapping]] = ..., step: _Optional[_Union[Step, _Mapping]] = ..., reset: _Optional[_Union[Reset, _Mapping]] = ..., set_time_scale: _Optional[_Union[SetTimeScale, _Mapping]] = ..., query: _Optional[_Union[Query, _Mapping]] = ...) -> None: ...
+    def __init__(self, spawn: _Optional[_Union[Spawn, _Mapping]] = ..., despawn: _Optional[_Union[Despawn, _Mapping]] = ..., impulse: _Optional[_Union[Impulse, _Mapping]] = ..., force: _Optional[_Union[Force, _Mapping]] = ..., set_velocity: _Optional[_Union[SetVelocity, _Mapping]] = ..., set_transform: _Optional[_Union[SetTransform, _Mapping]] = ..., pause: _Optional[_Union[Pause, _Mapping]] = ..., resume: _Optional[_Union[Resume, _Mapping]] = ..., step: _Optional[_Union[Step, _Mapping]] = ..., reset: _Optional[_Union[Reset, _Mapping]] = ..., set_time_scale: _Optional[_Union[SetTimeScale, _Mapping]] = ..., query: _Optional[_Union[Query, _Mapping]] = ..., create_joint: _Optional[_Union[CreateJoint, _Mapping]] = ..., destroy_joint: _Optional[_Union[DestroyJoint, _Mapping]] = ..., set_motor: _Optional[_Union[SetMotor, _Mapping]] = ..., set_target: _Optional[_Union[SetTarget, _Mapping]] = ...) -> None: ...
 
 class CommandBatch(_message.Message):
     __slots__ = ["commands", "sequence"]
@@ -115,11 +118,23 @@ class ContactsQuery(_message.Message):
     __slots__ = []
     def __init__(self) -> None: ...
 
+class CreateJoint(_message.Message):
+    __slots__ = ["joint"]
+    JOINT_FIELD_NUMBER: _ClassVar[int]
+    joint: _scene_pb2.Joint
+    def __init__(self, joint: _Optional[_Union[_scene_pb2.Joint, _Mapping]] = ...) -> None: ...
+
 class Despawn(_message.Message):
     __slots__ = ["body"]
     BODY_FIELD_NUMBER: _ClassVar[int]
-    body: BodyRef
-    def __init__(self, body: _Optional[_Union[BodyRef, _Mapping]] = ...) -> None: ...
+    body: _scene_pb2.BodyRef
+    def __init__(self, body: _Optional[_Union[_scene_pb2.BodyRef, _Mapping]] = ...) -> None: ...
+
+class DestroyJoint(_message.Message):
+    __slots__ = ["joint"]
+    JOINT_FIELD_NUMBER: _ClassVar[int]
+    joint: JointRef
+    def __init__(self, joint: _Optional[_Union[JointRef, _Mapping]] = ...) -> None: ...
 
 class DiagnosticsQuery(_message.Message):
     __slots__ = []
@@ -132,12 +147,12 @@ class Force(_message.Message):
     FORCE_FIELD_NUMBER: _ClassVar[int]
     FRAME_FIELD_NUMBER: _ClassVar[int]
     TORQUE_FIELD_NUMBER: _ClassVar[int]
-    body: BodyRef
+    body: _scene_pb2.BodyRef
     duration: float
     force: _scene_pb2.Vector
     frame: Frame
     torque: float
-    def __init__(self, body: _Optional[_Union[BodyRef, _Mapping]] = ..., force: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ..., torque: _Optional[float] = ..., frame: _Optional[_Union[Frame, str]] = ..., duration: _Optional[float] = ...) -> None: ...
+    def __init__(self, body: _Optional[_Union[_scene_pb2.BodyRef, _Mapping]] = ..., force: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ..., torque: _Optional[float] = ..., frame: _Optional[_Union[Frame, str]] = ..., duration: _Optional[float] = ...) -> None: ...
 
 class Impulse(_message.Message):
     __slots__ = ["angular", "body", "frame", "impulse", "point"]
@@ -147,11 +162,23 @@ class Impulse(_message.Message):
     IMPULSE_FIELD_NUMBER: _ClassVar[int]
     POINT_FIELD_NUMBER: _ClassVar[int]
     angular: float
-    body: BodyRef
+    body: _scene_pb2.BodyRef
     frame: Frame
     impulse: _scene_pb2.Vector
     point: _scene_pb2.Vector
-    def __init__(self, body: _Optional[_Union[BodyRef, _Mapping]] = ..., impulse: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ..., point: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ..., frame: _Optional[_Union[Frame, str]] = ..., angular: _Optional[float] = ...) -> None: ...
+    def __init__(self, body: _Optional[_Union[_scene_pb2.BodyRef, _Mapping]] = ..., impulse: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ..., point: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ..., frame: _Optional[_Union[Frame, str]] = ..., angular: _Optional[float] = ...) -> None: ...
+
+class JointRef(_message.Message):
+    __slots__ = ["id", "name"]
+    ID_FIELD_NUMBER: _ClassVar[int]
+    NAME_FIELD_NUMBER: _ClassVar[int]
+    id: int
+    name: str
+    def __init__(self, id: _Optional[int] = ..., name: _Optional[str] = ...) -> None: ...
+
+class JointsQuery(_message.Message):
+    __slots__ = []
+    def __init__(self) -> None: ...
 
 class NearestQuery(_message.Message):
     __slots__ = ["count_max", "distance_max", "point"]
@@ -174,10 +201,11 @@ class PointQuery(_message.Message):
     def __init__(self, point: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ...) -> None: ...
 
 class Query(_message.Message):
-    __slots__ = ["body", "contacts", "diagnostics", "nearest", "point", "ray", "region"]
+    __slots__ = ["body", "contacts", "diagnostics", "joints", "nearest", "point", "ray", "region"]
     BODY_FIELD_NUMBER: _ClassVar[int]
     CONTACTS_FIELD_NUMBER: _ClassVar[int]
     DIAGNOSTICS_FIELD_NUMBER: _ClassVar[int]
+    JOINTS_FIELD_NUMBER: _ClassVar[int]
     NEAREST_FIELD_NUMBER: _ClassVar[int]
     POINT_FIELD_NUMBER: _ClassVar[int]
     RAY_FIELD_NUMBER: _ClassVar[int]
@@ -185,23 +213,26 @@ class Query(_message.Message):
     body: BodyQuery
     contacts: ContactsQuery
     diagnostics: DiagnosticsQuery
+    joints: JointsQuery
     nearest: NearestQuery
     point: PointQuery
     ray: RayQuery
     region: RegionQuery
-    def __init__(self, point: _Optional[_Union[PointQuery, _Mapping]] = ..., region: _Optional[_Union[RegionQuery, _Mapping]] = ..., ray: _Optional[_Union[RayQuery, _Mapping]] = ..., nearest: _Optional[_Union[NearestQuery, _Mapping]] = ..., contacts: _Optional[_Union[ContactsQuery, _Mapping]] = ..., diagnostics: _Optional[_Union[DiagnosticsQuery, _Mapping]] = ..., body: _Optional[_Union[BodyQuery, _Mapping]] = ...) -> None: ...
+    def __init__(self, point: _Optional[_Union[PointQuery, _Mapping]] = ..., region: _Optional[_Union[RegionQuery, _Mapping]] = ..., ray: _Optional[_Union[RayQuery, _Mapping]] = ..., nearest: _Optional[_Union[NearestQuery, _Mapping]] = ..., contacts: _Optional[_Union[ContactsQuery, _Mapping]] = ..., diagnostics: _Optional[_Union[DiagnosticsQuery, _Mapping]] = ..., body: _Optional[_Union[BodyQuery, _Mapping]] = ..., joints: _Optional[_Union[JointsQuery, _Mapping]] = ...) -> None: ...
 
 class QueryResult(_message.Message):
-    __slots__ = ["body", "contacts", "diagnostics", "hits"]
+    __slots__ = ["body", "contacts", "diagnostics", "hits", "joints"]
     BODY_FIELD_NUMBER: _ClassVar[int]
     CONTACTS_FIELD_NUMBER: _ClassVar[int]
     DIAGNOSTICS_FIELD_NUMBER: _ClassVar[int]
     HITS_FIELD_NUMBER: _ClassVar[int]
+    JOINTS_FIELD_NUMBER: _ClassVar[int]
     body: _snapshot_pb2.BodyInfo
     contacts: _snapshot_pb2.Contacts
     diagnostics: _snapshot_pb2.Diagnostics
     hits: _containers.RepeatedCompositeFieldContainer[BodyHit]
-    def __init__(self, hits: _Optional[_Iterable[_Union[BodyHit, _Mapping]]] = ..., contacts: _Optional[_Union[_snapshot_pb2.Contacts, _Mapping]] = ..., diagnostics: _Optional[_Union[_snapshot_pb2.Diagnostics, _Mapping]] = ..., body: _Optional[_Union[_snapshot_pb2.BodyInfo, _Mapping]] = ...) -> None: ...
+    joints: _snapshot_pb2.Joints
+    def __init__(self, hits: _Optional[_Iterable[_Union[BodyHit, _Mapping]]] = ..., contacts: _Optional[_Union[_snapshot_pb2.Contacts, _Mapping]] = ..., diagnostics: _Optional[_Union[_snapshot_pb2.Diagnostics, _Mapping]] = ..., body: _Optional[_Union[_snapshot_pb2.BodyInfo, _Mapping]] = ..., joints: _Optional[_Union[_snapshot_pb2.Joints, _Mapping]] = ...) -> None: ...
 
 class RayQuery(_message.Message):
     __slots__ = ["origin", "translation"]
@@ -241,6 +272,22 @@ class Resume(_message.Message):
     __slots__ = []
     def __init__(self) -> None: ...
 
+class SetMotor(_message.Message):
+    __slots__ = ["joint", "motor"]
+    JOINT_FIELD_NUMBER: _ClassVar[int]
+    MOTOR_FIELD_NUMBER: _ClassVar[int]
+    joint: JointRef
+    motor: _scene_pb2.JointMotor
+    def __init__(self, joint: _Optional[_Union[JointRef, _Mapping]] = ..., motor: _Optional[_Union[_scene_pb2.JointMotor, _Mapping]] = ...) -> None: ...
+
+class SetTarget(_message.Message):
+    __slots__ = ["joint", "target"]
+    JOINT_FIELD_NUMBER: _ClassVar[int]
+    TARGET_FIELD_NUMBER: _ClassVar[int]
+    joint: JointRef
+    target: _scene_pb2.Vector
+    def __init__(self, joint: _Optional[_Union[JointRef, _Mapping]] = ..., target: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ...) -> None: ...
+
 class SetTimeScale(_message.Message):
     __slots__ = ["scale"]
     SCALE_FIELD_NUMBER: _ClassVar[int]
@@ -253,9 +300,9 @@ class SetTransform(_message.Message):
     BODY_FIELD_NUMBER: _ClassVar[int]
     POSITION_FIELD_NUMBER: _ClassVar[int]
     angle: float
-    body: BodyRef
+    body: _scene_pb2.BodyRef
     position: _scene_pb2.Vector
-    def __init__(self, body: _Optional[_Union[BodyRef, _Mapping]] = ..., position: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ..., angle: _Optional[float] = ...) -> None: ...
+    def __init__(self, body: _Optional[_Union[_scene_pb2.BodyRef, _Mapping]] = ..., position: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ..., angle: _Optional[float] = ...) -> None: ...
 
 class SetVelocity(_message.Message):
     __slots__ = ["angular_velocity", "body", "velocity"]
@@ -263,9 +310,9 @@ class SetVelocity(_message.Message):
     BODY_FIELD_NUMBER: _ClassVar[int]
     VELOCITY_FIELD_NUMBER: _ClassVar[int]
     angular_velocity: float
-    body: BodyRef
+    body: _scene_pb2.BodyRef
     velocity: _scene_pb2.Vector
-    def __init__(self, body: _Optional[_Union[BodyRef, _Mapping]] = ..., velocity: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ..., angular_velocity: _Optional[float] = ...) -> None: ...
+    def __init__(self, body: _Optional[_Union[_scene_pb2.BodyRef, _Mapping]] = ..., velocity: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ..., angular_velocity: _Optional[float] = ...) -> None: ...
 
 class Spawn(_message.Message):
     __slots__ = ["body"]

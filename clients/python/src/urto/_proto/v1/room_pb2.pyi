@@ -25,11 +25,12 @@ class Feature(_message.Message):
     def __init__(self, name: _Optional[str] = ..., choice: _Optional[str] = ..., on: bool = ..., reason: _Optional[str] = ...) -> None: ...
 
 class Limits(_message.Message):
-    __slots__ = ["batch_commands_max", "batches_per_tick_max", "bodies_max", "events_kept_max", "members_max", "message_bytes_max", "queue_batches_max", "shapes_max", "step_ticks_max"]
+    __slots__ = ["batch_commands_max", "batches_per_tick_max", "bodies_max", "events_kept_max", "joints_max", "members_max", "message_bytes_max", "queue_batches_max", "shapes_max", "step_ticks_max"]
     BATCHES_PER_TICK_MAX_FIELD_NUMBER: _ClassVar[int]
     BATCH_COMMANDS_MAX_FIELD_NUMBER: _ClassVar[int]
     BODIES_MAX_FIELD_NUMBER: _ClassVar[int]
     EVENTS_KEPT_MAX_FIELD_NUMBER: _ClassVar[int]
+    JOINTS_MAX_FIELD_NUMBER: _ClassVar[int]
     MEMBERS_MAX_FIELD_NUMBER: _ClassVar[int]
     MESSAGE_BYTES_MAX_FIELD_NUMBER: _ClassVar[int]
     QUEUE_BATCHES_MAX_FIELD_NUMBER: _ClassVar[int]
@@ -39,12 +40,13 @@ class Limits(_message.Message):
     batches_per_tick_max: int
     bodies_max: int
     events_kept_max: int
+    joints_max: int
     members_max: int
     message_bytes_max: int
     queue_batches_max: int
     shapes_max: int
     step_ticks_max: int
-    def __init__(self, bodies_max: _Optional[int] = ..., shapes_max: _Optional[int] = ..., batch_commands_max: _Optional[int] = ..., queue_batches_max: _Optional[int] = ..., batches_per_tick_max: _Optional[int] = ..., message_bytes_max: _Optional[int] = ..., members_max: _Optional[int] = ..., events_kept_max: _Optional[int] = ..., step_ticks_max: _Optional[int] = ...) -> None: ...
+    def __init__(self, bodies_max: _Optional[int] = ..., shapes_max: _Optional[int] = ..., batch_commands_max: _Optional[int] = ..., queue_batches_max: _Optional[int] = ..., batches_per_tick_max: _Optional[int] = ..., message_bytes_max: _Optional[int] = ..., members_max: _Optional[int] = ..., events_kept_max: _Optional[int] = ..., step_ticks_max: _Optional[int] = ..., joints_max: _Optional[int] = ...) -> None: ...
 
 class Member(_message.Message):
     __slots__ = ["session", "user"]
@@ -99,18 +101,20 @@ class RoomInfo(_message.Message):
     def __init__(self, room: _Optional[str] = ..., server_version: _Optional[str] = ..., protocol_version: _Optional[int] = ..., scene: _Optional[str] = ..., description: _Optional[str] = ..., epoch: _Optional[int] = ..., tick: _Optional[int] = ..., time_step: _Optional[float] = ..., time_scale: _Optional[float] = ..., snapshot_rate_hz: _Optional[float] = ..., paused: bool = ..., members: _Optional[_Iterable[_Union[Member, _Mapping]]] = ..., model: _Optional[_Iterable[_Union[Feature, _Mapping]]] = ..., limits: _Optional[_Union[Limits, _Mapping]] = ..., statistics: _Optional[_Union[_snapshot_pb2.Statistics, _Mapping]] = ..., control: _Optional[_Union[Permission, str]] = ..., authenticated: bool = ..., uptime: _Optional[float] = ..., state_hash: _Optional[int] = ..., precision: _Optional[_Union[_scene_pb2.Precision, str]] = ...) -> None: ...
 
 class RoomState(_message.Message):
-    __slots__ = ["bodies", "info", "saved_state", "scene", "snapshot"]
+    __slots__ = ["bodies", "info", "joints", "saved_state", "scene", "snapshot"]
     BODIES_FIELD_NUMBER: _ClassVar[int]
     INFO_FIELD_NUMBER: _ClassVar[int]
+    JOINTS_FIELD_NUMBER: _ClassVar[int]
     SAVED_STATE_FIELD_NUMBER: _ClassVar[int]
     SCENE_FIELD_NUMBER: _ClassVar[int]
     SNAPSHOT_FIELD_NUMBER: _ClassVar[int]
     bodies: _containers.RepeatedCompositeFieldContainer[_snapshot_pb2.BodyInfo]
     info: RoomInfo
+    joints: _containers.RepeatedCompositeFieldContainer[_snapshot_pb2.JointInfo]
     saved_state: bytes
     scene: _scene_pb2.Scene
     snapshot: _snapshot_pb2.Snapshot
-    def __init__(self, info: _Optional[_Union[RoomInfo, _Mapping]] = ..., scene: _Optional[_Union[_scene_pb2.Scene, _Mapping]] = ..., bodies: _Optional[_Iterable[_Union[_snapshot_pb2.BodyInfo, _Mapping]]] = ..., snapshot: _Optional[_Union[_snapshot_pb2.Snapshot, _Mapping]] = ..., saved_state: _Optional[bytes] = ...) -> None: ...
+    def __init__(self, info: _Optional[_Union[RoomInfo, _Mapping]] = ..., scene: _Optional[_Union[_scene_pb2.Scene, _Mapping]] = ..., bodies: _Optional[_Iterable[_Union[_snapshot_pb2.BodyInfo, _Mapping]]] = ..., snapshot: _Optional[_Union[_snapshot_pb2.Snapshot, _Mapping]] = ..., joints: _Optional[_Iterable[_Union[_snapshot_pb2.JointInfo, _Mapping]]] = ..., saved_state: _Optional[bytes] = ...) -> None: ...
 
 class Permission(int, metaclass=_enum_type_wrapper.EnumTypeWrapper):
     __slots__ = []

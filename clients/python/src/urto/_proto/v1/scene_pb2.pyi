@@ -68,6 +68,14 @@ class Body(_message.Message):
     velocity: Vector
     def __init__(self, name: _Optional[str] = ..., tags: _Optional[_Iterable[str]] = ..., type: _Optional[_Union[BodyType, str]] = ..., position: _Optional[_Union[Vector, _Mapping]] = ..., angle: _Optional[float] = ..., velocity: _Optional[_Union[Vector, _Mapping]] = ..., angular_velocity: _Optional[float] = ..., shapes: _Optional[_Iterable[_Union[Shape, _Mapping]]] = ..., mass: _Optional[float] = ..., linear_damping: _Optional[float] = ..., angular_damping: _Optional[float] = ..., gravity_scale: _Optional[float] = ..., fixed_rotation: bool = ..., awake: bool = ..., color: _Optional[int] = ...) -> None: ...
 
+class BodyRef(_message.Message):
+    __slots__ = ["id", "name"]
+    ID_FIELD_NUMBER: _ClassVar[int]
+    NAME_FIELD_NUMBER: _ClassVar[int]
+    id: int
+    name: str
+    def __init__(self, id: _Optional[int] = ..., name: _Optional[str] = ...) -> None: ...
+
 class Box(_message.Message):
     __slots__ = ["angle", "center", "height", "radius", "width"]
     ANGLE_FIELD_NUMBER: _ClassVar[int]
@@ -108,6 +116,16 @@ class Circle(_message.Message):
     radius: float
     def __init__(self, radius: _Optional[float] = ..., center: _Optional[_Union[Vector, _Mapping]] = ...) -> None: ...
 
+class DistanceJoint(_message.Message):
+    __slots__ = ["length", "limits", "spring"]
+    LENGTH_FIELD_NUMBER: _ClassVar[int]
+    LIMITS_FIELD_NUMBER: _ClassVar[int]
+    SPRING_FIELD_NUMBER: _ClassVar[int]
+    length: float
+    limits: JointLimits
+    spring: JointSpring
+    def __init__(self, length: _Optional[float] = ..., limits: _Optional[_Union[JointLimits, _Mapping]] = ..., spring: _Optional[_Union[JointSpring, _Mapping]] = ...) -> None: ...
+
 class Drag(_message.Message):
     __slots__ = ["linear", "quadratic"]
     LINEAR_FIELD_NUMBER: _ClassVar[int]
@@ -125,6 +143,72 @@ class ForceField(_message.Message):
     point_attractor: PointAttractor
     spring: Spring
     def __init__(self, point_attractor: _Optional[_Union[PointAttractor, _Mapping]] = ..., drag: _Optional[_Union[Drag, _Mapping]] = ..., spring: _Optional[_Union[Spring, _Mapping]] = ...) -> None: ...
+
+class Joint(_message.Message):
+    __slots__ = ["anchor_a", "anchor_b", "body_a", "body_b", "break_force", "break_torque", "collide_connected", "distance", "mouse", "name", "prismatic", "revolute", "weld"]
+    ANCHOR_A_FIELD_NUMBER: _ClassVar[int]
+    ANCHOR_B_FIELD_NUMBER: _ClassVar[int]
+    BODY_A_FIELD_NUMBER: _ClassVar[int]
+    BODY_B_FIELD_NUMBER: _ClassVar[int]
+    BREAK_FORCE_FIELD_NUMBER: _ClassVar[int]
+    BREAK_TORQUE_FIELD_NUMBER: _ClassVar[int]
+    COLLIDE_CONNECTED_FIELD_NUMBER: _ClassVar[int]
+    DISTANCE_FIELD_NUMBER: _ClassVar[int]
+    MOUSE_FIELD_NUMBER: _ClassVar[int]
+    NAME_FIELD_NUMBER: _ClassVar[int]
+    PRISMATIC_FIELD_NUMBER: _ClassVar[int]
+    REVOLUTE_FIELD_NUMBER: _ClassVar[int]
+    WELD_FIELD_NUMBER: _ClassVar[int]
+    anchor_a: Vector
+    anchor_b: Vector
+    body_a: BodyRef
+    body_b: BodyRef
+    break_force: float
+    break_torque: float
+    collide_connected: bool
+    distance: DistanceJoint
+    mouse: MouseJoint
+    name: str
+    prismatic: PrismaticJoint
+    revolute: RevoluteJoint
+    weld: WeldJoint
+    def __init__(self, name: _Optional[str] = ..., body_a: _Optional[_Union[BodyRef, _Mapping]] = ..., body_b: _Optional[_Union[BodyRef, _Mapping]] = ..., anchor_a: _Optional[_Union[Vector, _Mapping]] = ..., anchor_b: _Optional[_Union[Vector, _Mapping]] = ..., revolute: _Optional[_Union[RevoluteJoint, _Mapping]] = ..., distance: _Optional[_Union[DistanceJoint, _Mapping]] = ..., prismatic: _Optional[_Union[PrismaticJoint, _Mapping]] = ..., weld: _Optional[_Union[WeldJoint, _Mapping]] = ..., mouse: _Optional[_Union[MouseJoint, _Mapping]] = ..., break_force: _Optional[float] = ..., break_torque: _Optional[float] = ..., collide_connected: bool = ...) -> None: ...
+
+class JointLimits(_message.Message):
+    __slots__ = ["lower", "upper"]
+    LOWER_FIELD_NUMBER: _ClassVar[int]
+    UPPER_FIELD_NUMBER: _ClassVar[int]
+    lower: float
+    upper: float
+    def __init__(self, lower: _Optional[float] = ..., upper: _Optional[float] = ...) -> None: ...
+
+class JointMotor(_message.Message):
+    __slots__ = ["bound", "enabled", "speed"]
+    BOUND_FIELD_NUMBER: _ClassVar[int]
+    ENABLED_FIELD_NUMBER: _ClassVar[int]
+    SPEED_FIELD_NUMBER: _ClassVar[int]
+    bound: float
+    enabled: bool
+    speed: float
+    def __init__(self, enabled: bool = ..., speed: _Optional[float] = ..., bound: _Optional[float] = ...) -> None: ...
+
+class JointSpring(_message.Message):
+    __slots__ = ["damping_ratio", "hertz"]
+    DAMPING_RATIO_FIELD_NUMBER: _ClassVar[int]
+    HERTZ_FIELD_NUMBER: _ClassVar[int]
+    damping_ratio: float
+    hertz: float
+    def __init__(self, hertz: _Optional[float] = ..., damping_ratio: _Optional[float] = ...) -> None: ...
+
+class MouseJoint(_message.Message):
+    __slots__ = ["force_max", "spring", "target"]
+    FORCE_MAX_FIELD_NUMBER: _ClassVar[int]
+    SPRING_FIELD_NUMBER: _ClassVar[int]
+    TARGET_FIELD_NUMBER: _ClassVar[int]
+    force_max: float
+    spring: JointSpring
+    target: Vector
+    def __init__(self, target: _Optional[_Union[Vector, _Mapping]] = ..., spring: _Optional[_Union[JointSpring, _Mapping]] = ..., force_max: _Optional[float] = ...) -> None: ...
 
 class PointAttractor(_message.Message):
     __slots__ = ["center", "softening", "strength"]
@@ -144,21 +228,49 @@ class Polygon(_message.Message):
     vertices: _containers.RepeatedCompositeFieldContainer[Vector]
     def __init__(self, vertices: _Optional[_Iterable[_Union[Vector, _Mapping]]] = ..., radius: _Optional[float] = ...) -> None: ...
 
+class PrismaticJoint(_message.Message):
+    __slots__ = ["axis", "limits", "motor", "reference_angle", "spring"]
+    AXIS_FIELD_NUMBER: _ClassVar[int]
+    LIMITS_FIELD_NUMBER: _ClassVar[int]
+    MOTOR_FIELD_NUMBER: _ClassVar[int]
+    REFERENCE_ANGLE_FIELD_NUMBER: _ClassVar[int]
+    SPRING_FIELD_NUMBER: _ClassVar[int]
+    axis: Vector
+    limits: JointLimits
+    motor: JointMotor
+    reference_angle: float
+    spring: JointSpring
+    def __init__(self, axis: _Optional[_Union[Vector, _Mapping]] = ..., reference_angle: _Optional[float] = ..., limits: _Optional[_Union[JointLimits, _Mapping]] = ..., motor: _Optional[_Union[JointMotor, _Mapping]] = ..., spring: _Optional[_Union[JointSpring, _Mapping]] = ...) -> None: ...
+
+class RevoluteJoint(_message.Message):
+    __slots__ = ["limits", "motor", "reference_angle", "spring"]
+    LIMITS_FIELD_NUMBER: _ClassVar[int]
+    MOTOR_FIELD_NUMBER: _ClassVar[int]
+    REFERENCE_ANGLE_FIELD_NUMBER: _ClassVar[int]
+    SPRING_FIELD_NUMBER: _ClassVar[int]
+    limits: JointLimits
+    motor: JointMotor
+    reference_angle: float
+    spring: JointSpring
+    def __init__(self, reference_angle: _Optional[float] = ..., limits: _Optional[_Union[JointLimits, _Mapping]] = ..., motor: _Optional[_Union[JointMotor, _Mapping]] = ..., spring: _Optional[_Union[JointSpring, _Mapping]] = ...) -> None: ...
+
 class Scene(_message.Message):
-    __slots__ = ["bodies", "description", "fields", "name", "view", "world"]
+    __slots__ = ["bodies", "description", "fields", "joints", "name", "view", "world"]
     BODIES_FIELD_NUMBER: _ClassVar[int]
     DESCRIPTION_FIELD_NUMBER: _ClassVar[int]
     FIELDS_FIELD_NUMBER: _ClassVar[int]
+    JOINTS_FIELD_NUMBER: _ClassVar[int]
     NAME_FIELD_NUMBER: _ClassVar[int]
     VIEW_FIELD_NUMBER: _ClassVar[int]
     WORLD_FIELD_NUMBER: _ClassVar[int]
     bodies: _containers.RepeatedCompositeFieldContainer[Body]
     description: str
     fields: _containers.RepeatedCompositeFieldContainer[ForceField]
+    joints: _containers.RepeatedCompositeFieldContainer[Joint]
     name: str
     view: View
     world: WorldSettings
-    def __init__(self, name: _Optional[str] = ..., description: _Optional[str] = ..., world: _Optional[_Union[WorldSettings, _Mapping]] = ..., bodies: _Optional[_Iterable[_Union[Body, _Mapping]]] = ..., fields: _Optional[_Iterable[_Union[ForceField, _Mapping]]] = ..., view: _Optional[_Union[View, _Mapping]] = ...) -> None: ...
+    def __init__(self, name: _Optional[str] = ..., description: _Optional[str] = ..., world: _Optional[_Union[WorldSettings, _Mapping]] = ..., bodies: _Optional[_Iterable[_Union[Body, _Mapping]]] = ..., fields: _Optional[_Iterable[_Union[ForceField, _Mapping]]] = ..., view: _Optional[_Union[View, _Mapping]] = ..., joints: _Optional[_Iterable[_Union[Joint, _Mapping]]] = ...) -> None: ...
 
 class Shape(_message.Message):
     __slots__ = ["box", "capsule", "category", "chain", "circle", "density", "friction", "mask", "polygon", "restitution", "sensor"]
@@ -211,6 +323,16 @@ class View(_message.Message):
     lower: Vector
     upper: Vector
     def __init__(self, lower: _Optional[_Union[Vector, _Mapping]] = ..., upper: _Optional[_Union[Vector, _Mapping]] = ...) -> None: ...
+
+class WeldJoint(_message.Message):
+    __slots__ = ["angular", "linear", "reference_angle"]
+    ANGULAR_FIELD_NUMBER: _ClassVar[int]
+    LINEAR_FIELD_NUMBER: _ClassVar[int]
+    REFERENCE_ANGLE_FIELD_NUMBER: _ClassVar[int]
+    angular: JointSpring
+    linear: JointSpring
+    reference_angle: float
+    def __init__(self, reference_angle: _Optional[float] = ..., linear: _Optional[_Union[JointSpring, _Mapping]] = ..., angular: _Optional[_Union[JointSpring, _Mapping]] = ...) -> None: ...
 
 class WorldSettings(_message.Message):
     __slots__ = ["broad_phase", "continuous", "friction_mixing", "gravity", "integrator", "narrow_phase", "precision", "restitution_mixing", "restitution_threshold", "sleeping", "solver", "sub_steps", "time_step"]

@@ -131,13 +131,16 @@ class Diagnostics(_message.Message):
     def __init__(self, tick: _Optional[int] = ..., sim_time: _Optional[float] = ..., state_hash: _Optional[int] = ..., kinetic_energy: _Optional[float] = ..., potential_energy: _Optional[float] = ..., momentum: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ..., angular_momentum: _Optional[float] = ..., statistics: _Optional[_Union[Statistics, _Mapping]] = ...) -> None: ...
 
 class Event(_message.Message):
-    __slots__ = ["batch_rejected", "body_added", "body_removed", "contact_begin", "contact_end", "events_dropped", "member_joined", "member_left", "room_paused", "room_reset", "room_resumed", "tick", "time_scale_changed"]
+    __slots__ = ["batch_rejected", "body_added", "body_removed", "contact_begin", "contact_end", "events_dropped", "joint_added", "joint_broke", "joint_removed", "member_joined", "member_left", "room_paused", "room_reset", "room_resumed", "tick", "time_scale_changed"]
     BATCH_REJECTED_FIELD_NUMBER: _ClassVar[int]
     BODY_ADDED_FIELD_NUMBER: _ClassVar[int]
     BODY_REMOVED_FIELD_NUMBER: _ClassVar[int]
     CONTACT_BEGIN_FIELD_NUMBER: _ClassVar[int]
     CONTACT_END_FIELD_NUMBER: _ClassVar[int]
     EVENTS_DROPPED_FIELD_NUMBER: _ClassVar[int]
+    JOINT_ADDED_FIELD_NUMBER: _ClassVar[int]
+    JOINT_BROKE_FIELD_NUMBER: _ClassVar[int]
+    JOINT_REMOVED_FIELD_NUMBER: _ClassVar[int]
     MEMBER_JOINED_FIELD_NUMBER: _ClassVar[int]
     MEMBER_LEFT_FIELD_NUMBER: _ClassVar[int]
     ROOM_PAUSED_FIELD_NUMBER: _ClassVar[int]
@@ -151,6 +154,9 @@ class Event(_message.Message):
     contact_begin: ContactBegin
     contact_end: ContactEnd
     events_dropped: EventsDropped
+    joint_added: JointAdded
+    joint_broke: JointBroke
+    joint_removed: JointRemoved
     member_joined: MemberJoined
     member_left: MemberLeft
     room_paused: RoomPaused
@@ -158,7 +164,7 @@ class Event(_message.Message):
     room_resumed: RoomResumed
     tick: int
     time_scale_changed: TimeScaleChanged
-    def __init__(self, tick: _Optional[int] = ..., contact_begin: _Optional[_Union[ContactBegin, _Mapping]] = ..., contact_end: _Optional[_Union[ContactEnd, _Mapping]] = ..., body_added: _Optional[_Union[BodyAdded, _Mapping]] = ..., body_removed: _Optional[_Union[BodyRemoved, _Mapping]] = ..., member_joined: _Optional[_Union[MemberJoined, _Mapping]] = ..., member_left: _Optional[_Union[MemberLeft, _Mapping]] = ..., room_paused: _Optional[_Union[RoomPaused, _Mapping]] = ..., room_resumed: _Optional[_Union[RoomResumed, _Mapping]] = ..., room_reset: _Optional[_Union[RoomReset, _Mapping]] = ..., time_scale_changed: _Optional[_Union[TimeScaleChanged, _Mapping]] = ..., batch_rejected: _Optional[_Union[BatchRejected, _Mapping]] = ..., events_dropped: _Optional[_Union[EventsDropped, _Mapping]] = ...) -> None: ...
+    def __init__(self, tick: _Optional[int] = ..., contact_begin: _Optional[_Union[ContactBegin, _Mapping]] = ..., contact_end: _Optional[_Union[ContactEnd, _Mapping]] = ..., body_added: _Optional[_Union[BodyAdded, _Mapping]] = ..., body_removed: _Optional[_Union[BodyRemoved, _Mapping]] = ..., member_joined: _Optional[_Union[MemberJoined, _Mapping]] = ..., member_left: _Optional[_Union[MemberLeft, _Mapping]] = ..., room_paused: _Optional[_Union[RoomPaused, _Mapping]] = ..., room_resumed: _Optional[_Union[RoomResumed, _Mapping]] = ..., room_reset: _Optional[_Union[RoomReset, _Mapping]] = ..., time_scale_changed: _Optional[_Union[TimeScaleChanged, _Mapping]] = ..., batch_rejected: _Optional[_Union[BatchRejected, _Mapping]] = ..., events_dropped: _Optional[_Union[EventsDropped, _Mapping]] = ..., joint_added: _Optional[_Union[JointAdded, _Mapping]] = ..., joint_removed: _Optional[_Union[JointRemoved, _Mapping]] = ..., joint_broke: _Optional[_Union[JointBroke, _Mapping]] = ...) -> None: ...
 
 class EventBatch(_message.Message):
     __slots__ = ["epoch", "events", "first_sequence", "oldest_sequence"]
@@ -177,6 +183,74 @@ class EventsDropped(_message.Message):
     COUNT_FIELD_NUMBER: _ClassVar[int]
     count: int
     def __init__(self, count: _Optional[int] = ...) -> None: ...
+
+class JointAdded(_message.Message):
+    __slots__ = ["id", "joint", "user"]
+    ID_FIELD_NUMBER: _ClassVar[int]
+    JOINT_FIELD_NUMBER: _ClassVar[int]
+    USER_FIELD_NUMBER: _ClassVar[int]
+    id: int
+    joint: _scene_pb2.Joint
+    user: str
+    def __init__(self, id: _Optional[int] = ..., joint: _Optional[_Union[_scene_pb2.Joint, _Mapping]] = ..., user: _Optional[str] = ...) -> None: ...
+
+class JointBroke(_message.Message):
+    __slots__ = ["body_a", "body_b", "force", "id", "point", "torque"]
+    BODY_A_FIELD_NUMBER: _ClassVar[int]
+    BODY_B_FIELD_NUMBER: _ClassVar[int]
+    FORCE_FIELD_NUMBER: _ClassVar[int]
+    ID_FIELD_NUMBER: _ClassVar[int]
+    POINT_FIELD_NUMBER: _ClassVar[int]
+    TORQUE_FIELD_NUMBER: _ClassVar[int]
+    body_a: int
+    body_b: int
+    force: float
+    id: int
+    point: _scene_pb2.Vector
+    torque: float
+    def __init__(self, id: _Optional[int] = ..., body_a: _Optional[int] = ..., body_b: _Optional[int] = ..., point: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ..., force: _Optional[float] = ..., torque: _Optional[float] = ...) -> None: ...
+
+class JointInfo(_message.Message):
+    __slots__ = ["id", "joint", "state"]
+    ID_FIELD_NUMBER: _ClassVar[int]
+    JOINT_FIELD_NUMBER: _ClassVar[int]
+    STATE_FIELD_NUMBER: _ClassVar[int]
+    id: int
+    joint: _scene_pb2.Joint
+    state: JointState
+    def __init__(self, id: _Optional[int] = ..., joint: _Optional[_Union[_scene_pb2.Joint, _Mapping]] = ..., state: _Optional[_Union[JointState, _Mapping]] = ...) -> None: ...
+
+class JointRemoved(_message.Message):
+    __slots__ = ["id", "user"]
+    ID_FIELD_NUMBER: _ClassVar[int]
+    USER_FIELD_NUMBER: _ClassVar[int]
+    id: int
+    user: str
+    def __init__(self, id: _Optional[int] = ..., user: _Optional[str] = ...) -> None: ...
+
+class JointState(_message.Message):
+    __slots__ = ["force", "motor", "point_a", "point_b", "position", "speed", "torque"]
+    FORCE_FIELD_NUMBER: _ClassVar[int]
+    MOTOR_FIELD_NUMBER: _ClassVar[int]
+    POINT_A_FIELD_NUMBER: _ClassVar[int]
+    POINT_B_FIELD_NUMBER: _ClassVar[int]
+    POSITION_FIELD_NUMBER: _ClassVar[int]
+    SPEED_FIELD_NUMBER: _ClassVar[int]
+    TORQUE_FIELD_NUMBER: _ClassVar[int]
+    force: _scene_pb2.Vector
+    motor: _scene_pb2.JointMotor
+    point_a: _scene_pb2.Vector
+    point_b: _scene_pb2.Vector
+    position: float
+    speed: float
+    torque: float
+    def __init__(self, point_a: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ..., point_b: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ..., position: _Optional[float] = ..., speed: _Optional[float] = ..., force: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ..., torque: _Optional[float] = ..., motor: _Optional[_Union[_scene_pb2.JointMotor, _Mapping]] = ...) -> None: ...
+
+class Joints(_message.Message):
+    __slots__ = ["joints"]
+    JOINTS_FIELD_NUMBER: _ClassVar[int]
+    joints: _containers.RepeatedCompositeFieldContainer[JointInfo]
+    def __init__(self, joints: _Optional[_Iterable[_Union[JointInfo, _Mapping]]] = ...) -> None: ...
 
 class MemberJoined(_message.Message):
     __slots__ = ["session", "user"]
