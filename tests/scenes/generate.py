@@ -21,199 +21,43 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+from scene_parts import (  # noqa: E402
+    AMBER,
+    CORAL,
+    CREAM,
+    Enum,
+    Message,
+    NAVY,
+    OLIVE,
+    PALETTE,
+    ROSE,
+    SAND,
+    SEA,
+    SLATE,
+    STEEL,
+    TEAL,
+    blend,
+    body,
+    box,
+    capsule,
+    chain,
+    circle,
+    frame,
+    gradient,
+    ground,
+    joint,
+    lines,
+    number,
+    polygon,
+    scene,
+    vector,
+)
+
+__all__ = ["generate", "main", "number"]
+
 HEADER = "# Written by generate.py: change that, not this file.\n"
-LINE_WIDTH = 110
-
-# Colours: a dark slate for what never moves, and warm and cool tones that stand beside each other on dark and on light.
-SLATE = 0x4B5563
-STEEL = 0x6B7A8F
-TEAL = 0x2A9D8F
-SEA = 0x3A86A8
-NAVY = 0x355070
-SAND = 0xE9C46A
-AMBER = 0xF4A261
-CORAL = 0xE76F51
-ROSE = 0xB56576
-CREAM = 0xF1E3C8
-OLIVE = 0x8AB17D
-PALETTE = (TEAL, SAND, CORAL, SEA, AMBER, OLIVE, ROSE, CREAM)
-
-
-class Enum(str):
-    """A name that is written without quotes."""
-
-
-class Color(int):
-    """0xRRGGBB, written in hexadecimal."""
-
-
-Message = dict[str, Any]
-
-
-def number(value: float) -> str:
-    text = f"{value:.6f}".rstrip("0").rstrip(".")
-    return "0" if text == "-0" else text
-
-
-def scalar(value: Any) -> str:
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, Enum):
-        return str(value)
-    if isinstance(value, Color):
-        return f"0x{value:06X}"
-    if isinstance(value, int):
-        return str(value)
-    if isinstance(value, float):
-        return number(value)
-    escaped = str(value).replace("\\", "\\\\").replace('"', '\\"')
-    return f'"{escaped}"'
-
-
-def fields(message: Message) -> list[tuple[str, Any]]:
-    pairs: list[tuple[str, Any]] = []
-    for key, value in message.items():
-        pairs.extend((key, each) for each in (value if isinstance(value, list) else [value]))
-    return pairs
-
-
-def inline(message: Message) -> str:
-    parts = [
-        f"{key} {{ {inline(value)} }}" if isinstance(value, dict) else f"{key}: {scalar(value)}"
-        for key, value in fields(message)
-    ]
-    return " ".join(parts)
-
-
-def lines(message: Message, indent: str = "") -> list[str]:
-    """The message in text format: a nested message on one line where it fits, else a line per field."""
-    out: list[str] = []
-    for key, value in fields(message):
-        if not isinstance(value, dict):
-            out.append(f"{indent}{key}: {scalar(value)}")
-            continue
-        line = f"{indent}{key} {{ {inline(value)} }}"
-        if len(line) <= LINE_WIDTH and not (key == "bodies" and len(line) > LINE_WIDTH // 2):
-            out.append(line)
-        else:
-            out.extend([f"{indent}{key} {{", *lines(value, indent + "  "), f"{indent}}}"])
-    return out
-
-
-def vector(x: float, y: float) -> Message:
-    return {"x": float(x), "y": float(y)}
-
-
-def box(
-    width: float, height: float, center: tuple[float, float] | None = None, angle: float = 0.0, **material: Any
-) -> Message:
-    geometry: Message = {"width": float(width), "height": float(height)}
-    if center is not None:
-        geometry["center"] = vector(*center)
-    if angle:
-        geometry["angle"] = float(angle)
-    return {"box": geometry, **material}
-
-
-def circle(radius: float, center: tuple[float, float] | None = None, **material: Any) -> Message:
-    geometry: Message = {"radius": float(radius)}
-    if center is not None:
-        geometry["center"] = vector(*center)
-    return {"circle": geometry, **material}
-
-
-def polygon(vertices: list[tuple[float, float]], **material: Any) -> Message:
-    return {"polygon": {"vertices": [vector(x, y) for x, y in vertices]}, **material}
-
-
-def capsule(a: tuple[float, float], b: tuple[float, float], radius: float, **material: Any) -> Message:
-    return {"capsule": {"a": vector(*a), "b": vector(*b), "radius": float(radius)}, **material}
-
-
-def chain(vertices: list[tuple[float, float]], loop: bool = False, **material: Any) -> Message:
-    geometry: Message = {"vertices": [vector(x, y) for x, y in vertices]}
-    if loop:
-        geometry["loop"] = True
-    return {"chain": geometry, **material}
-
-
-def body(
-    shapes: Message | list[Message],
-    x: float,
-    y: float,
-    *,
-    name: str = "",
-    kind: str = "",
-    color: int | None = None,
-    angle: float = 0.0,
-    velocity: tuple[float, float] | None = None,
-    tags: tuple[str, ...] = (),
-    **more: Any,
-) -> Message:
-    out: Message = {}
-    if name:
-        out["name"] = name
-    if tags:
-        out["tags"] = list(tags)
-    if kind:
-        out["type"] = Enum(f"BODY_TYPE_{kind}")
-    out["position"] = vector(x, y)
-    if angle:
-        out["angle"] = float(angle)
-    if velocity is not None:
-        out["velocity"] = vector(*velocity)
-    out.update(more)
-    out["shapes"] = shapes if isinstance(shapes, list) else [shapes]
-    if color is not None:
-        out["color"] = Color(color)
-    return out
-
-
-def scene(
-    name: str,
-    description: str,
-    view: tuple[float, float, float, float],
-    bodies: list[Message],
-    world: Message | None = None,
-    force_fields: list[Message] | None = None,
-) -> Message:
-    out: Message = {"name": name, "description": description}
-    if world:
-        out["world"] = world
-    out["view"] = {"lower": vector(*view[:2]), "upper": vector(*view[2:])}
-    if force_fields:
-        out["fields"] = force_fields
-    out["bodies"] = bodies
-    return out
-
-
-def ground(width: float, x: float = 0.0, **material: Any) -> Message:
-    """A static floor of that width whose top is y = 0."""
-    return body(box(width, 1, **material), x, -0.5, name="ground", kind="STATIC", color=SLATE)
-
-
-def frame(width: float, height: float, thickness: float = 0.5, **material: Any) -> list[Message]:
-    """Four static walls around the inside (-width/2, 0) to (width/2, height)."""
-    side = (width + thickness) / 2
-    flat, upright = box(width + 2 * thickness, thickness, **material), box(thickness, height, **material)
-    return [
-        body(flat, 0, -thickness / 2, name="floor", kind="STATIC", color=SLATE),
-        body(flat, 0, height + thickness / 2, name="ceiling", kind="STATIC", color=SLATE),
-        body(upright, -side, height / 2, name="wall_left", kind="STATIC", color=SLATE),
-        body(upright, side, height / 2, name="wall_right", kind="STATIC", color=SLATE),
-    ]
-
-
-def blend(low: int, high: int, t: float) -> int:
-    """The colour at t in [0, 1] between two."""
-    channels = [round(((low >> s) & 255) * (1 - t) + ((high >> s) & 255) * t) for s in (16, 8, 0)]
-    return channels[0] << 16 | channels[1] << 8 | channels[2]
-
-
-def gradient(stops: tuple[int, ...], t: float) -> int:
-    place = min(max(t, 0.0), 1.0) * (len(stops) - 1)
-    index = min(int(place), len(stops) - 2)
-    return blend(stops[index], stops[index + 1], place - index)
 
 
 # ---- the scenes ----
@@ -608,6 +452,86 @@ def terrain(rows: int = 4, columns: int = 9) -> Message:
     )
 
 
+def bridge(planks: int = 24) -> Message:
+    """Two towers, planks hinged in a row between them; crates lie on it, and a ball falls that is too much."""
+    length, height = 1.0, 6.0
+    half = planks * length / 2
+    bodies = [ground(60)]
+    for side, name in ((-1, "tower_left"), (1, "tower_right")):
+        bodies.append(body(box(2, height), side * (half + 1), height / 2, name=name, kind="STATIC", color=SLATE))
+    for index in range(planks):
+        x = (index - (planks - 1) / 2) * length
+        color = gradient((TEAL, SAND, TEAL), index / (planks - 1))
+        bodies.append(body(box(0.96, 0.2, density=2.0), x, height - 0.1, name=f"plank_{index + 1}", color=color))
+    for index in range(4):
+        bodies.append(body(box(0.8, 0.8), (index - 1.5) * 3, height + 1, name=f"crate_{index + 1}", color=AMBER))
+    bodies.append(body(circle(0.9, density=40.0), 2.5, height + 55, name="ball", color=CORAL))
+    names = ["tower_left", *(f"plank_{index + 1}" for index in range(planks)), "tower_right"]
+    ends = {"tower_left": (1, height / 2 - 0.1), "tower_right": (-1, height / 2 - 0.1)}
+    joints = [
+        joint(
+            "revolute", a, b, ends.get(a, (length / 2, 0)), ends.get(b, (-length / 2, 0)),
+            name=f"hinge_{index + 1}", break_force=4000.0,
+        )
+        for index, (a, b) in enumerate(zip(names, names[1:]))
+    ]  # fmt: skip
+    return scene(
+        "bridge",
+        f"A bridge of {planks} hinged planks under four crates; after three seconds a heavy ball breaks it.",
+        (-16, -1.5, 16, 14),
+        bodies,
+        joints=joints,
+    )
+
+
+def machines() -> Message:
+    """One of each kind of joint at work: a car, a lift, a windmill, a swinging chain, a spring, a flag."""
+    bodies = [ground(60)]
+    joints: list[Message] = []
+
+    def add(kind: str, a: str, b: str, *anchors: tuple[float, float], **more: Any) -> None:
+        joints.append(joint(kind, a, b, *anchors, **more))
+
+    motor = {"speed": -8.0, "bound": 60.0}
+    bodies.append(body(box(3, 0.6), -20, 1.0, name="car", color=TEAL))
+    for side, name in ((-1, "wheel_rear"), (1, "wheel_front")):
+        bodies.append(body(circle(0.5, friction=0.9), -20 + side, 0.5, name=name, color=NAVY))
+        drive = {"motor": motor} if side < 0 else {}
+        add("revolute", "car", name, (side, -0.5), (0, 0), name=f"axle_{name[6:]}", geometry=drive)
+    bodies.append(body(box(0.4, 8), -4, 4, name="lift_shaft", kind="STATIC", color=SLATE))
+    bodies.append(body(box(2.4, 0.4), -2.5, 1, name="lift", color=SAND))
+    bodies.append(body(box(0.8, 0.8), -2.5, 1.7, name="load", color=CORAL))
+    rail = {
+        "axis": vector(0, 1), "limits": {"lower": 0.0, "upper": 5.0}, "motor": {"speed": 1.5, "bound": 60.0},
+    }  # fmt: skip
+    add("prismatic", "lift_shaft", "lift", (1.5, -3), (0, 0), name="lift_rail", geometry=rail)
+    bodies.append(body(box(0.5, 7), 4, 3.5, name="mill", kind="STATIC", color=SLATE))
+    sails = [box(0.4, 5), box(5, 0.4)]
+    bodies.append(body(sails, 4, 7, name="sails", color=OLIVE))
+    turning = {"motor": {"speed": 1.0, "bound": 200.0}}
+    add("revolute", "mill", "sails", (0, 3.5), (0, 0), name="mill_axle", geometry=turning)
+    bodies.append(body(box(6, 0.4), 12, 11, name="beam", kind="STATIC", color=SLATE))
+    before, at = "beam", (-2.0, 0.0)
+    for index in range(8):
+        name = f"link_{index + 1}"
+        bodies.append(body(box(0.8, 0.16), 10.4 + 0.8 * index, 11, name=name, color=STEEL))
+        add("revolute", before, name, at, (-0.4, 0), name=f"chain_{index + 1}")
+        before, at = name, (0.4, 0.0)
+    bodies.append(body(circle(0.4, density=4.0), 12, 8, name="bob", color=ROSE))
+    hanging = {"length": 2.0, "spring": {"hertz": 0.8, "damping_ratio": 0.02}}
+    add("distance", "beam", "bob", (0, 0), (0, 0), name="spring", geometry=hanging)
+    bodies.append(body(box(3, 0.1), 15.3, 10, name="flag", color=AMBER))
+    waving = {"angular": {"hertz": 1.5, "damping_ratio": 0.1}}
+    add("weld", "beam", "flag", (2, -1), (-1.3, 0), name="flag_pole", geometry=waving)
+    return scene(
+        "machines",
+        "A car with a driven wheel, a lift, a windmill, a chain, a spring and a flag: joints at work.",
+        (-24, -1.5, 24, 14),
+        bodies,
+        joints=joints,
+    )
+
+
 def tumbler(count: int = 300) -> Message:
     radius, thickness, panels = 7.0, 0.4, 20
     walls: list[Message] = []
@@ -762,6 +686,8 @@ SCENES: tuple[Callable[[], Message], ...] = (
     precise,
     arch,
     terrain,
+    bridge,
+    machines,
     tumbler,
     orbit,
     integrators,

@@ -27,10 +27,9 @@ class JointLines:
 
     def ends(self, position: Floats, angle: Floats) -> Floats:
         """(n, 2, 2) m, world frame: a's and b's anchor, for bodies at these places."""
-        return np.stack(
-            [_placed(self._row_a, self._anchor_a, position, angle), _placed(self._row_b, self._anchor_b, position, angle)],
-            axis=1,
-        )
+        a = _placed(self._row_a, self._anchor_a, position, angle)
+        b = _placed(self._row_b, self._anchor_b, position, angle)
+        return np.stack([a, b], axis=1)
 
 
 def _placed(rows: npt.NDArray[np.int64], anchors: Floats, position: Floats, angle: Floats) -> Floats:
