@@ -182,11 +182,24 @@ def rectangles_page(stages: Sequence[Record], errors: dict[str, list[Record]]) -
     ]
 
 
+def features_page(features: Sequence[Record]) -> list[str]:
+    return [
+        "# What a scene leaves out",
+        "",
+        "Mean milliseconds of processor time a step, of the same scene without a feature and with it on but idle: "
+        "something far away needs it. The bits of all else are the same in both (`tests/accuracy/features_test.cpp`).",
+        "",
+        *pages.features_table(features),
+        "",
+    ]
+
+
 def main() -> None:
     arguments = parse_arguments()
     start, started = time.monotonic(), datetime.now(timezone.utc).strftime("%Y-%m-%d %H:%M UTC")
     machine = about_machine()
     programs = measure.build(arguments.jobs)
+    measure.forget_notes_older_than(programs)
     rows = {int(row) for row in arguments.row.split(",") if row}
     cases = [case for case in measure.cases(programs) if not rows or case["row"] in rows]
     if arguments.quick:
@@ -194,8 +207,8 @@ def main() -> None:
     if not cases:
         fail("no case has such a row")
     out: Path = arguments.out
-    stages, stage_errors = ([], []) if rows else measure_stages(programs, arguments.quick)
     records = measure_cases(programs, cases, arguments.quick)
+    stages, stage_errors = ([], []) if rows else measure_stages(programs, arguments.quick)
     results = by_case(records)
     drawn, orders = draw_all(out, cases, results)
     machine["load at end"] = os.getloadavg()[0]
@@ -208,7 +221,11 @@ def main() -> None:
         diagrams.draw_rectangles(out / "diagrams" / "rectangles.svg", stages, measure.FRAME_MS)
         page = rectangles_page(stages, by_case(stage_errors)) + about
         (out / "rectangles.md").write_text("\n".join(page) + "\n", encoding="utf-8")
+    features = [] if rows else measure.features(programs["urto"], arguments.quick)
+    if features:
+        (out / "features.md").write_text("\n".join(features_page(features) + about) + "\n", encoding="utf-8")
     data = {"started": started, "quick": arguments.quick, "machine": machine, "versions": versions, "cases": cases}
+    data |= {"features": features}
     data |= {"points": records, "rectangles": stages, "rectangles_errors": stage_errors}
     text = json.dumps(data, ensure_ascii=False, separators=(",", ":")).replace('},{"engine"', '},\n{"engine"')
     (out / "accuracy.json").write_text(text + "\n", encoding="utf-8")

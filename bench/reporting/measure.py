@@ -69,16 +69,47 @@ def cases(programs: dict[str, Path]) -> list[Record]:
     return [json.loads(line) for line in listing.splitlines()]
 
 
+# ---- notes: a report that was interrupted goes on where it was, as long as the programs are the same ----
+
+NOTES = BUILD / "points.jsonl"
+
+
+def _key(record: Record) -> tuple[str, str, str]:
+    return record["engine"], record["case"], record["method"]
+
+
+def _noted(effort: Effort) -> dict[tuple[str, str, str], Record]:
+    if not NOTES.exists():
+        return {}
+    lines = [json.loads(line) for line in NOTES.read_text(encoding="utf-8").splitlines()]
+    return {_key(line["record"]): line["record"] for line in lines if line["effort"] == repr(effort)}
+
+
+def _note(record: Record, effort: Effort) -> None:
+    with NOTES.open("a", encoding="utf-8") as file:
+        file.write(json.dumps({"effort": repr(effort), "record": record}) + "\n")
+
+
+def forget_notes_older_than(programs: dict[str, Path]) -> None:
+    if NOTES.exists() and any(program.stat().st_mtime > NOTES.stat().st_mtime for program in programs.values()):
+        NOTES.unlink()
+
+
 def measure_all(programs: dict[str, Path], points: Sequence[Point], effort: Effort) -> list[Record]:
     records, start, told = [], time.monotonic(), 0.0
+    known = _noted(effort)
     for number, point in enumerate(points, 1):
         record: Record = {"engine": point.engine, "case": point.case, "method": point.method, "curve": point.curve}
-        if point.engine in programs:
+        if _key(record) in known:
+            record |= {key: value for key, value in known[_key(record)].items() if key != "curve"}
+        elif point.engine in programs:
             command = [str(programs[point.engine]), point.case, point.method]
             command += ["--runs", str(effort.runs), "--budget", str(effort.budget_s)]
             record |= _run(command, effort.timeout_s)
         else:
             record["failed"] = "not built"
+        if _key(record) not in known:
+            _note(record, effort)
         records.append(record)
         elapsed = time.monotonic() - start
         if elapsed - told > 5 or number == len(points):
@@ -126,3 +157,12 @@ def _fits(curve: Sequence[Record]) -> int | None:
             exponent = math.log(FRAME_MS / low["step_ms"]) / math.log(high["step_ms"] / low["step_ms"])
             return round(low["rectangles"] * (high["rectangles"] / low["rectangles"]) ** exponent)
     return None
+
+
+# ---- features ----
+
+
+def features(program: Path, quick: bool) -> list[Record]:
+    command = [str(program), "--features", "--runs", "5" if quick else "20", "--steps", "100"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    return [json.loads(line) for line in done.stdout.splitlines()]

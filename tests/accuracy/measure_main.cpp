@@ -18,6 +18,7 @@
 
 #include "accuracy/case.h"
 #include "accuracy/engine.h"
+#include "accuracy/features.h"
 #include "accuracy/method_text.h"
 #include "accuracy/rectangles.h"
 #include "accuracy/replay.h"
@@ -113,6 +114,24 @@ void measure_rectangles(int count, const Method& method, int steps) {
               count <= kOverlapCountMax ? number(overlap).c_str() : "null");
 }
 
+// The two scenes take turns, so that whatever else the machine does meets both.
+void measure_features(int runs, int steps) {
+  for (const FeatureCase& each : feature_cases()) {
+    double without_ms = std::numeric_limits<double>::infinity(), idle_ms = without_ms;
+    for (int i = 0; i < runs; ++i) {
+      for (const bool idle : {false, true}) {
+        Lab lab(make_engine, Method{}, cpu_seconds);
+        Run run(lab, idle ? each.idle : each.without);
+        run.steps(steps);
+        double& least = idle ? idle_ms : without_ms;
+        least = std::min(least, 1e3 * lab.cpu_seconds() / steps);
+      }
+    }
+    std::printf("{\"feature\":%s,\"scene\":%s,\"without_ms\":%s,\"idle_ms\":%s}\n", quoted(each.feature).c_str(),
+                quoted(each.scene).c_str(), number(without_ms).c_str(), number(idle_ms).c_str());
+  }
+}
+
 // As tests/accuracy/expected_failures.txt has them.
 void check(bool with_long) {
   for (const Case& each : all_cases()) {
@@ -147,7 +166,7 @@ struct Arguments {
   std::vector<std::string> names;
   Effort effort;
   int rectangles = 0, steps = 240;
-  bool list = false, check = false, with_long = false, replay = false;
+  bool list = false, check = false, with_long = false, replay = false, features = false;
 };
 
 Arguments parse(const std::vector<std::string>& words) {
@@ -169,6 +188,8 @@ Arguments parse(const std::vector<std::string>& words) {
       out.check = true;
     } else if (words[i] == "--replay") {
       out.replay = true;
+    } else if (words[i] == "--features") {
+      out.features = true;
     } else if (words[i] == "--long") {
       out.with_long = true;
     } else {
@@ -185,6 +206,8 @@ int run(const std::vector<std::string>& words) {
     print_list();
   } else if (arguments.check) {
     check(arguments.with_long);
+  } else if (arguments.features) {
+    measure_features(arguments.effort.runs, arguments.steps);
   } else if (arguments.rectangles > 0 && names.size() == 1) {
     measure_rectangles(arguments.rectangles, method_from(names[0]), arguments.steps);
   } else if (names.size() == 2 && find_case(names[0]) && arguments.replay) {
