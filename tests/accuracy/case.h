@@ -12,7 +12,6 @@ namespace urto::accuracy {
 struct Level {
   Profile profile = Profile::kDefault;
   double error_max = 0;
-  bool is_long = false;  // by this profile the case takes so long that the report's full run alone measures it
 };
 
 // What varies along the curves of a case's diagram.
