@@ -7,21 +7,6 @@ namespace urto {
 namespace {
 
 template <class S>
-Aabb<S> tight_bounds(const Shape<S>& shape, const Convex<S>& convex, const Place<S>& place, const Body<S>& body) {
-  const ShapeKind kind = shape.shape_kind();
-  if (kind != ShapeKind::kBox && kind != ShapeKind::kCircle) return convex.bounds(body.pose());
-  S ex, ey;
-  if (kind == ShapeKind::kBox) {
-    const S ax = absolute(place.c), ay = absolute(place.s);
-    ex = ax * place.half_width + ay * place.half_height;
-    ey = ay * place.half_width + ax * place.half_height;
-  } else {
-    ex = ey = convex.radius;
-  }
-  return {Vec<S>(place.x - ex, place.y - ey), Vec<S>(place.x + ex, place.y + ey)};
-}
-
-template <class S>
 bool may_touch(const WorldData<S>& world, const Shape<S>& a, const Shape<S>& b) {
   if (a.body == b.body || !filters_touch(a, b)) return false;
   const Body<S>&ba = world.bodies[a.body], &bb = world.bodies[b.body];
@@ -33,12 +18,28 @@ bool may_touch(const WorldData<S>& world, const Shape<S>& a, const Shape<S>& b) 
 }  // namespace
 
 template <class S>
-Aabb<S> swept_bounds(const WorldData<S>& world, Proxy proxy) {
+Aabb<S> tight_bounds(const WorldData<S>& world, Proxy proxy) {
   const Shape<S>& shape = world.shapes[proxy];
-  const Body<S>& body = world.bodies[shape.body];
   const Place<S>& place = world.places[proxy];
-  Aabb<S> box = tight_bounds(shape, world.convexes[proxy], place, body);
-  if (!body.awake()) return box;
+  const ShapeKind kind = shape.shape_kind();
+  if (kind != ShapeKind::kBox && kind != ShapeKind::kCircle)
+    return world.convexes[proxy].bounds(world.bodies[shape.body].pose());
+  S ex, ey;
+  if (kind == ShapeKind::kBox) {
+    const S ax = absolute(place.c), ay = absolute(place.s);
+    ex = ax * place.half_width + ay * place.half_height;
+    ey = ay * place.half_width + ax * place.half_height;
+  } else {
+    ex = ey = world.convexes[proxy].radius;
+  }
+  return {Vec<S>(place.x - ex, place.y - ey), Vec<S>(place.x + ex, place.y + ey)};
+}
+
+template <class S>
+Aabb<S> swept_bounds(const WorldData<S>& world, Proxy proxy) {
+  const Place<S>& place = world.places[proxy];
+  Aabb<S> box = tight_bounds(world, proxy);
+  if (!world.bodies[world.shapes[proxy].body].awake()) return box;
   (place.way_x < S(0) ? box.lower : box.upper).x() += place.way_x;
   (place.way_y < S(0) ? box.lower : box.upper).y() += place.way_y;
   return box;
@@ -89,6 +90,7 @@ void update_broad_phase(WorldData<S>& world) {
 }
 
 #define URTO_INSTANTIATE(S)                                                     \
+  template Aabb<S> tight_bounds(const WorldData<S>&, Proxy);                    \
   template Aabb<S> swept_bounds(const WorldData<S>&, Proxy);                    \
   template void mark_moved(WorldData<S>&, Proxy);                               \
   template void follow_body(WorldData<S>&, std::uint32_t, std::vector<Proxy>&); \

@@ -6,7 +6,11 @@ namespace urto {
 
 // Keeps the broad phase's bounds around the bodies, and finds the pairs they make.
 
-// Tight bounds of a shape at its place, stretched over the way its body will come in one step at its velocity.
+// Tight bounds of a shape at its place.
+template <class S>
+Aabb<S> tight_bounds(const WorldData<S>& world, Proxy proxy);
+
+// The same, stretched over the way its body will come in one step at its velocity.
 template <class S>
 Aabb<S> swept_bounds(const WorldData<S>& world, Proxy proxy);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "physics/bounds.h"
 #include "physics/joint_graph.h"
 #include "physics/narrow_phase/gjk.h"
 #include "physics/narrow_phase/time_of_impact.h"
@@ -47,13 +48,16 @@ class ContinuousCollision {
 
   // Bounds of a shape over the whole step: of all turns where it turns.
   Aabb<S> way_of(Proxy p) const {
-    const Convex<S>& convex = world_.convexes[p];
-    const Sweep<S> sweep = sweep_of(world_.shapes[p].body, S(0), S(1));
-    if (sweep.angle0 == sweep.angle1) return convex.bounds(sweep.pose(S(0))).merged(convex.bounds(sweep.pose(S(1))));
-    S radius = S(0);
-    for (std::uint32_t i = 0; i < convex.count; ++i)
-      radius = max_of(radius, length<S>(convex.vertices[i] - sweep.local_center));
-    return Aabb<S>{sweep.c0, sweep.c0}.merged(Aabb<S>{sweep.c1, sweep.c1}).expanded(radius + convex.radius);
+    const Shape<S>& shape = world_.shapes[p];
+    const Body<S>& body = world_.bodies[shape.body];
+    const Motion<S>& m = world_.motions[shape.body];
+    const Vec<S> way(m.dx, m.dy);
+    if (m.da == S(0)) {
+      const Aabb<S> box = tight_bounds(world_, p);
+      return box.merged(Aabb<S>{box.lower + way, box.upper + way});
+    }
+    const Vec<S> from = body.center(), to = from + way;
+    return Aabb<S>{from, from}.merged(Aabb<S>{to, to}).expanded(body.extent_max);
   }
 
   // The motion of a body between two moments of the step, standing still after its stop.
@@ -71,12 +75,13 @@ class ContinuousCollision {
   }
 
   void find_impacts() {
-    world_.broad_phase->find_pairs(proxies_, world_.scratch.pairs);
-    for (const auto& [low, high] : world_.scratch.pairs) {
+    const auto may_pass = [this](Proxy low, Proxy high) {
       const Shape<S>&a = world_.shapes[low], &b = world_.shapes[high];
-      if (a.sensor() || b.sensor() || a.body == b.body || !filters_touch(a, b)) continue;
-      if (close_in_fast(a.body, b.body) && !kept_apart(world_, a.body, b.body)) push_impact(low, high);
-    }
+      if (a.sensor() || b.sensor() || a.body == b.body || !filters_touch(a, b)) return false;
+      return close_in_fast(a.body, b.body) && !kept_apart(world_, a.body, b.body);
+    };
+    world_.broad_phase->find_pairs_where(proxies_, may_pass, world_.scratch.pairs);
+    for (const auto& [low, high] : world_.scratch.pairs) push_impact(low, high);
   }
 
   // Bodies that move together, as the pieces of a heap do, cannot pass through each other however fast they are.

@@ -31,6 +31,11 @@ class BroadPhase {
   // and not both are still. Sorted, each once. `pairs` is cleared first.
   virtual void find_pairs(std::span<const Proxy> moved, std::vector<std::pair<Proxy, Proxy>>& pairs) const = 0;
 
+  // Of these pairs the ones that `wanted` lets pass: cheaper than to sort all and drop many. It may be asked twice.
+  using PairFilter = std::function<bool(Proxy, Proxy)>;
+  virtual void find_pairs_where(std::span<const Proxy> moved, const PairFilter& wanted,
+                                std::vector<std::pair<Proxy, Proxy>>& pairs) const;
+
   // Of the pairs that find_pairs would report those whose bounds did not overlap when this was last asked: what a
   // caller that keeps its pairs has not met yet. It may name others too, as after a rebuild.
   virtual void find_new_pairs(std::span<const Proxy> moved, std::vector<std::pair<Proxy, Proxy>>& pairs);

@@ -129,6 +129,13 @@ void Bvh<S>::find_pairs(std::span<const Proxy> moved, std::vector<std::pair<Prox
 }
 
 template <class S>
+void Bvh<S>::find_pairs_where(std::span<const Proxy> moved, const typename BroadPhase<S>::PairFilter& wanted,
+                              std::vector<std::pair<Proxy, Proxy>>& pairs) const {
+  join(moved, [&wanted](Proxy a, Proxy b) { return wanted(a, b); });
+  sorter_.sort_into(static_cast<std::uint32_t>(still_.size()), pairs);
+}
+
+template <class S>
 void Bvh<S>::find_new_pairs(std::span<const Proxy> moved, std::vector<std::pair<Proxy, Proxy>>& pairs) {
   join(moved, [this](Proxy a, Proxy b) { return !this->knows(a, b); });
   sorter_.sort_into(static_cast<std::uint32_t>(still_.size()), pairs);

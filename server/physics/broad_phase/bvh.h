@@ -23,6 +23,8 @@ class Bvh final : public BroadPhase<S> {
   void remove(Proxy proxy) override;
   void move(Proxy proxy, const Aabb<S>& bounds) override;
   void find_pairs(std::span<const Proxy> moved, std::vector<std::pair<Proxy, Proxy>>& pairs) const override;
+  void find_pairs_where(std::span<const Proxy> moved, const typename BroadPhase<S>::PairFilter& wanted,
+                        std::vector<std::pair<Proxy, Proxy>>& pairs) const override;
   void find_new_pairs(std::span<const Proxy> moved, std::vector<std::pair<Proxy, Proxy>>& pairs) override;
   void query(const Aabb<S>& box, std::vector<Proxy>& out) const override;
   void query_segment(const Vec<S>& origin, const Vec<S>& translation, std::vector<Proxy>& out) const override;
