@@ -84,15 +84,20 @@ class ContinuousCollision {
     for (const auto& [low, high] : world_.scratch.pairs) push_impact(low, high);
   }
 
+  // m, no point of b comes nearer to a point of a by more than this in the step.
+  S approach_max(std::uint32_t a, std::uint32_t b) const {
+    const Motion<S>&ma = world_.motions[a], &mb = world_.motions[b];
+    const Vec<S> way(mb.dx - ma.dx, mb.dy - ma.dy);
+    return length<S>(way) + absolute(ma.da) * world_.bodies[a].extent_max +
+           absolute(mb.da) * world_.bodies[b].extent_max;
+  }
+
   // Bodies that move together, as the pieces of a heap do, cannot pass through each other however fast they are.
   bool close_in_fast(std::uint32_t a, std::uint32_t b) const {
-    const Motion<S>&ma = world_.motions[a], &mb = world_.motions[b];
     const Body<S>&ba = world_.bodies[a], &bb = world_.bodies[b];
-    const Vec<S> way(mb.dx - ma.dx, mb.dy - ma.dy);
-    const S turning = absolute(ma.da) * ba.extent_max + absolute(mb.da) * bb.extent_max;
     S thickness = ba.dynamic() ? ba.extent_min : bb.extent_min;
     if (bb.dynamic()) thickness = min_of(thickness, bb.extent_min);
-    return length<S>(way) + turning > S(kFastFraction) * thickness;
+    return approach_max(a, b) > S(kFastFraction) * thickness;
   }
 
   void push_impact(Proxy low, Proxy high) {
@@ -124,6 +129,8 @@ class ContinuousCollision {
     // What touches already is the contact solver's business; what is near stops nearer.
     const S apart = gjk_distance(ca, cb, sa.pose(S(0)).inverse_times(sb.pose(S(0)))).separation;
     if (apart <= S(kImpactToleranceFraction) * reach) return false;
+    // What is further apart than the pair can close in by needs no search.
+    if (apart > approach_max(a.body, b.body) + reach) return false;
     const S target = min_of(S(kImpactTargetFraction) * reach, S(0.5) * apart);
     const Impact<S> impact = time_of_impact(ca, sa, cb, sb, target, S(0.25) * target);
     if (impact.kind == ImpactKind::kSeparated || impact.kind == ImpactKind::kOverlapped) return false;
