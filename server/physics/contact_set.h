@@ -33,12 +33,12 @@ struct ContactSet {
     std::vector<ContactBlockRest<S>> rest;  // of the same lanes
     std::uint32_t size = 0;                 // of used lanes; all blocks but the last are full
   };
-  struct Place {
+  struct WholeBlock {
     ContactBlock<S>* block;
     ContactBlockRest<S>* rest;
   };
   std::array<Color, kColorsMax> colors;
-  std::vector<Place> blocks;         // scratch: all of them in order
+  std::vector<WholeBlock> blocks;    // scratch: all of them in order
   std::vector<std::uint64_t> taken;  // by body slot: colours of its contacts, a bit each
   bool current = false;              // the lanes hold this step's manifolds (not so after a restore)
 };

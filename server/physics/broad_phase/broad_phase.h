@@ -31,7 +31,7 @@ class BroadPhase {
   // and not both are still. Sorted, each once. `pairs` is cleared first.
   virtual void find_pairs(std::span<const Proxy> moved, std::vector<std::pair<Proxy, Proxy>>& pairs) const = 0;
 
-  // Of these pairs the ones that `wanted` lets pass: cheaper than to sort all and drop many. It may be asked twice.
+  // Of these pairs the ones that `wanted` lets pass: cheaper than to sort all and drop many.
   using PairFilter = std::function<bool(Proxy, Proxy)>;
   virtual void find_pairs_where(std::span<const Proxy> moved, const PairFilter& wanted,
                                 std::vector<std::pair<Proxy, Proxy>>& pairs) const;

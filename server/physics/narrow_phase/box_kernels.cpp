@@ -12,26 +12,13 @@
 // After foreach_target.h:
 #include <hwy/highway.h>
 
-#include "physics/simd/rows-inl.h"
+#include "physics/narrow_phase/place_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace urto {
 namespace HWY_NAMESPACE {
 namespace {
 
-template <class S>
-struct Pair {
-  Vector<S> x, y;
-};
-
-template <class S>
-HWY_INLINE Vector<S> dot(Pair<S> a, Pair<S> b) {
-  return hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y));
-}
-template <class S>
-HWY_INLINE Pair<S> choose(Mask<S> condition, Pair<S> yes, Pair<S> no) {
-  return {hn::IfThenElse(condition, yes.x, no.x), hn::IfThenElse(condition, yes.y, no.y)};
-}
 template <class S>
 HWY_INLINE Pair<S> turned(Pair<S> v) {  // by +90°
   return {hn::Neg(v.y), v.x};
@@ -41,33 +28,12 @@ HWY_INLINE Pair<S> negated_if(Mask<S> condition, Pair<S> v) {
   return {hn::IfThenElse(condition, hn::Neg(v.x), v.x), hn::IfThenElse(condition, hn::Neg(v.y), v.y)};
 }
 
-template <class S>
-struct BoxLanes {
-  Pair<S> center, axis, half, offset, way;
-  Vector<S> reach, bound, turn;
-
-  HWY_INLINE BoxLanes(const Place<S>* places, const std::uint32_t* proxies) {
-    const auto m0 = load_rows<S>([&](std::size_t i) { return &places[proxies[i]].x; });
-    const auto m1 = load_rows<S>([&](std::size_t i) { return &places[proxies[i]].half_width; });
-    const auto m2 = load_rows<S>([&](std::size_t i) { return &places[proxies[i]].reach; });
-    const auto m3 = load_rows<S>([&](std::size_t i) { return &places[proxies[i]].way_x; });
-    center = {m0.c0, m0.c1};
-    axis = {m0.c2, m0.c3};
-    half = {m1.c0, m1.c1};
-    offset = {m1.c2, m1.c3};
-    reach = m2.c0;
-    bound = m2.c1;
-    turn = m2.c2;
-    way = {m3.c0, m3.c1};
-  }
-};
-
 // The axes of SAT: how far the boxes are apart along each one's x and y axis.
 template <class S>
 struct Separations {
   Vector<S> ax, ay, bx, by;
 
-  HWY_INLINE Separations(const BoxLanes<S>& a, const BoxLanes<S>& b, Pair<S> between) {
+  HWY_INLINE Separations(const PlaceLanes<S>& a, const PlaceLanes<S>& b, Pair<S> between) {
     const auto c = hn::Abs(dot<S>(a.axis, b.axis)), s = hn::Abs(dot<S>(a.axis, turned<S>(b.axis)));
     const auto along = [](Pair<S> axis, Pair<S> d) HWY_ATTR { return hn::Abs(dot<S>(axis, d)); };
     ax = hn::Sub(hn::Sub(along(a.axis, between), a.half.x), hn::Add(hn::Mul(c, b.half.x), hn::Mul(s, b.half.y)));
@@ -92,7 +58,7 @@ struct Clipped {
   Mask<S> beside;                // the edge lies wholly beside the face: the two meet corner to corner at most
 
   // vertical: the face is that of the reference's y axis.
-  HWY_INLINE Clipped(const BoxLanes<S>& a, const BoxLanes<S>& b, Pair<S> between, Mask<S> flip, Mask<S> vertical) {
+  HWY_INLINE Clipped(const PlaceLanes<S>& a, const PlaceLanes<S>& b, Pair<S> between, Mask<S> flip, Mask<S> vertical) {
     const auto zero = hn::Zero(Tag<S>()), one = set(S(1)), two = set(S(2)), three = set(S(3));
     const Pair<S> way = negated_if<S>(flip, between);
     const Pair<S> axis = choose<S>(flip, b.axis, a.axis), other = choose<S>(flip, a.axis, b.axis);
@@ -147,14 +113,6 @@ struct Clipped {
   }
 };
 
-// The way the surfaces may close in by in one step, on top of the shapes' own reach (reach_of in contacts.h).
-template <class S>
-HWY_INLINE Vector<S> reach_of(const BoxLanes<S>& a, const BoxLanes<S>& b) {
-  const auto wx = hn::Sub(b.way.x, a.way.x), wy = hn::Sub(b.way.y, a.way.y);
-  const auto way = hn::Add(hn::Sqrt(hn::Add(hn::Mul(wx, wx), hn::Mul(wy, wy))), hn::Add(a.turn, b.turn));
-  return hn::Add(smaller(a.reach, b.reach), smaller(way, smaller(a.bound, b.bound)));
-}
-
 template <class S>
 struct Points {
   Mask<S> p, q;
@@ -167,7 +125,7 @@ template <class S>
 HWY_INLINE void collide_vector(const Place<S>* places, const std::uint32_t* proxies_a, const std::uint32_t* proxies_b,
                                std::size_t lane, ManifoldLanes<S>& out) {
   const auto zero = hn::Zero(Tag<S>()), one = set(S(1)), half_of = set(S(0.5));
-  const BoxLanes<S> a(places, proxies_a + lane), b(places, proxies_b + lane);
+  const PlaceLanes<S> a(places, proxies_a + lane), b(places, proxies_b + lane);
   const Pair<S> between{hn::Sub(b.center.x, a.center.x), hn::Sub(b.center.y, a.center.y)};
   const auto reach = reach_of(a, b);
   const Separations<S> sat(a, b, between);

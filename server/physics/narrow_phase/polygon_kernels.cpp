@@ -12,30 +12,13 @@
 // After foreach_target.h:
 #include <hwy/highway.h>
 
-#include "physics/simd/rows-inl.h"
+#include "physics/narrow_phase/place_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace urto {
 namespace HWY_NAMESPACE {
 namespace {
 
-template <class S>
-struct Pair {
-  Vector<S> x, y;
-};
-
-template <class S>
-HWY_INLINE Vector<S> dot(Pair<S> a, Pair<S> b) {
-  return hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y));
-}
-template <class S>
-HWY_INLINE Pair<S> minus(Pair<S> a, Pair<S> b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y)};
-}
-template <class S>
-HWY_INLINE Pair<S> choose(Mask<S> condition, Pair<S> yes, Pair<S> no) {
-  return {hn::IfThenElse(condition, yes.x, no.x), hn::IfThenElse(condition, yes.y, no.y)};
-}
 template <class S>
 HWY_INLINE Pair<S> rotated(Pair<S> q, Pair<S> v) {
   return {hn::Sub(hn::Mul(q.x, v.x), hn::Mul(q.y, v.y)), hn::Add(hn::Mul(q.y, v.x), hn::Mul(q.x, v.y))};
@@ -150,34 +133,6 @@ struct IncidentEdge {
     q_index = hn::IfThenElse(hn::Lt(next, count), next, hn::Zero(Tag<S>()));
   }
 };
-
-template <class S>
-struct PlaceLanes {
-  Pair<S> center, axis, offset, way;
-  Vector<S> reach, bound, turn, vertices;
-
-  HWY_INLINE PlaceLanes(const Place<S>* places, const std::uint32_t* proxies) {
-    const auto m0 = load_rows<S>([&](std::size_t i) { return &places[proxies[i]].x; });
-    const auto m1 = load_rows<S>([&](std::size_t i) { return &places[proxies[i]].half_width; });
-    const auto m2 = load_rows<S>([&](std::size_t i) { return &places[proxies[i]].reach; });
-    const auto m3 = load_rows<S>([&](std::size_t i) { return &places[proxies[i]].way_x; });
-    center = {m0.c0, m0.c1};
-    axis = {m0.c2, m0.c3};
-    offset = {m1.c2, m1.c3};
-    reach = m2.c0;
-    bound = m2.c1;
-    turn = m2.c2;
-    way = {m3.c0, m3.c1};
-    vertices = m3.c2;
-  }
-};
-
-template <class S>
-HWY_INLINE Vector<S> reach_of(const PlaceLanes<S>& a, const PlaceLanes<S>& b) {
-  const Pair<S> w = minus<S>(b.way, a.way);
-  const auto way = hn::Add(hn::Sqrt(dot<S>(w, w)), hn::Add(a.turn, b.turn));
-  return hn::Add(smaller(a.reach, b.reach), smaller(way, smaller(a.bound, b.bound)));
-}
 
 template <class S>
 HWY_INLINE int most_of(Vector<S> counts) {
