@@ -30,10 +30,25 @@ static_assert(v1::REJECTION_CODE_UNKNOWN_JOINT == static_cast<int>(RejectionCode
 static_assert(v1::REJECTION_CODE_WRONG_JOINT_KIND == static_cast<int>(RejectionCode::kWrongJointKind));
 static_assert(v1::REJECTION_CODE_NOT_SUPPORTED == static_cast<int>(RejectionCode::kNotSupported));
 
+constexpr std::uint32_t kEveryBit = 0xffffffffu;
+
 Rejection rejection_from(const FieldIssue& issue) {
   const auto code =
       issue.kind == FieldIssue::Kind::kMalformed ? RejectionCode::kMalformed : RejectionCode::kInvalidValue;
   return Rejection{code, 0, issue.field, issue.value, issue.message};
+}
+
+// Of a cast, an overlap or a closest-point query.
+template <class Query>
+QueryOptions options_from(const Query& message) {
+  QueryOptions options;
+  if (message.has_filter()) {
+    const v1::QueryFilter& filter = message.filter();
+    options.filter =
+        Filter{filter.has_category() ? filter.category() : kEveryBit, filter.has_mask() ? filter.mask() : kEveryBit};
+  }
+  if (message.count_max() != 0) options.count_max = message.count_max();
+  return options;
 }
 
 // Reads one command. What is missing is noted in `missing`, the first only.
@@ -171,6 +186,17 @@ class CommandReader {
         return BodyQuery{target(message.body().has_body(), message.body().body(), "query.body")};
       case v1::Query::kJoints:
         return JointsQuery{};
+      case v1::Query::kCast:
+        need(message.cast().has_shape(), "query.cast.shape");
+        return CastQuery{query_shape_from_proto(message.cast().shape()),
+                         vector_from_proto(message.cast().translation()), options_from(message.cast())};
+      case v1::Query::kOverlap:
+        need(message.overlap().has_shape(), "query.overlap.shape");
+        return OverlapQuery{query_shape_from_proto(message.overlap().shape()), options_from(message.overlap())};
+      case v1::Query::kClosest:
+        need(message.closest().has_shape(), "query.closest.shape");
+        return ClosestQuery{query_shape_from_proto(message.closest().shape()), message.closest().distance_max(),
+                            options_from(message.closest())};
       case v1::Query::QUERY_NOT_SET:
         break;  // check_message() lets none pass
     }

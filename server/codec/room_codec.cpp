@@ -106,6 +106,7 @@ void write_hit(const BodyHit& hit, v1::BodyHit* out) {
   write_vector(hit.normal, out->mutable_normal());
   out->set_fraction(hit.fraction);
   out->set_distance(hit.distance);
+  if (hit.query_point != Vec2(0, 0)) write_vector(hit.query_point, out->mutable_query_point());
 }
 
 }  // namespace
@@ -133,6 +134,7 @@ std::string encode_state(const RoomView& view, const SceneDef& scene, const Room
 
 void write_query_result(const QueryResult& result, v1::QueryResult* out) {
   for (const BodyHit& hit : result.hits) write_hit(hit, out->add_hits());
+  out->set_truncated(result.truncated);
   if (result.contacts) write_contacts(*result.contacts, out->mutable_contacts());
   if (result.diagnostics) write_diagnostics(*result.diagnostics, out->mutable_diagnostics());
   if (result.body) write_body_info(*result.body, out->mutable_body());

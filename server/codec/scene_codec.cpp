@@ -48,24 +48,50 @@ std::vector<Vec2> vertices_from_proto(const google::protobuf::RepeatedPtrField<v
   return vertices;
 }
 
+Box box_from_proto(const v1::Box& message) {
+  return {message.width(), message.height(), vector_from_proto(message.center()), message.angle(), message.radius()};
+}
+Circle circle_from_proto(const v1::Circle& message) { return {message.radius(), vector_from_proto(message.center())}; }
+Polygon polygon_from_proto(const v1::Polygon& message) {
+  return {vertices_from_proto(message.vertices()), message.radius()};
+}
+Capsule capsule_from_proto(const v1::Capsule& message) {
+  return {vector_from_proto(message.a()), vector_from_proto(message.b()), message.radius()};
+}
+
 Geometry geometry_from_proto(const v1::Shape& message) {
   switch (message.geometry_case()) {
     case v1::Shape::kBox:
-      return Box{message.box().width(), message.box().height(), vector_from_proto(message.box().center()),
-                 message.box().angle(), message.box().radius()};
+      return box_from_proto(message.box());
     case v1::Shape::kCircle:
-      return Circle{message.circle().radius(), vector_from_proto(message.circle().center())};
+      return circle_from_proto(message.circle());
     case v1::Shape::kPolygon:
-      return Polygon{vertices_from_proto(message.polygon().vertices()), message.polygon().radius()};
+      return polygon_from_proto(message.polygon());
     case v1::Shape::kCapsule:
-      return Capsule{vector_from_proto(message.capsule().a()), vector_from_proto(message.capsule().b()),
-                     message.capsule().radius()};
+      return capsule_from_proto(message.capsule());
     case v1::Shape::kChain:
       return Chain{vertices_from_proto(message.chain().vertices()), message.chain().loop()};
     case v1::Shape::GEOMETRY_NOT_SET:
       break;  // check_message() lets none pass
   }
   return Polygon{};
+}
+
+QueryGeometry query_geometry_from_proto(const v1::QueryShape& message) {
+  switch (message.geometry_case()) {
+    case v1::QueryShape::kBox:
+      return box_from_proto(message.box());
+    case v1::QueryShape::kCircle:
+      return circle_from_proto(message.circle());
+    case v1::QueryShape::kPolygon:
+      return polygon_from_proto(message.polygon());
+    case v1::QueryShape::kCapsule:
+      return capsule_from_proto(message.capsule());
+    case v1::QueryShape::kPoint:
+    case v1::QueryShape::GEOMETRY_NOT_SET:  // check_message() lets none pass
+      break;
+  }
+  return PointGeometry{};
 }
 
 ShapeDef shape_from_proto(const v1::Shape& message) {
@@ -193,6 +219,10 @@ struct FieldWriter {
 }  // namespace
 
 Vec2 vector_from_proto(const v1::Vector& message) { return {message.x(), message.y()}; }
+
+QueryShape query_shape_from_proto(const v1::QueryShape& message) {
+  return {query_geometry_from_proto(message), vector_from_proto(message.position()), message.angle()};
+}
 
 BodySpec body_from_proto(const v1::Body& message) {
   BodySpec body;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "physics/query_shape.h"
 #include "room/scene.h"
+#include "urto/v1/command.pb.h"
 #include "urto/v1/scene.pb.h"
 
 namespace urto::codec {
@@ -8,6 +10,7 @@ namespace urto::codec {
 // Values from messages that check_message() let pass: nothing can fail. Values keep the ranges they were sent with;
 // the room and the engine judge them.
 Vec2 vector_from_proto(const v1::Vector& message);
+QueryShape query_shape_from_proto(const v1::QueryShape& message);
 BodySpec body_from_proto(const v1::Body& message);
 SceneDef scene_from_proto(const v1::Scene& message);
 

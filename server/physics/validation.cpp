@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "physics/geometry/polygon.h"
+#include "physics/query_shape.h"
 
 namespace urto {
 namespace {
@@ -100,6 +101,26 @@ Status check_geometry(const Geometry& geometry) {
       .require(polygon.radius == 0 || parts->size() == 1, ErrorCode::kInvalidValue, "radius", text_of(polygon.radius),
                "a rounded polygon must be convex and have at most " + std::to_string(kPolygonVerticesMax) + " vertices")
       .result();
+}
+
+Status check_query_geometry(const QueryGeometry& geometry) {
+  if (const auto* polygon = std::get_if<Polygon>(&geometry)) {
+    if (Status status = check_geometry(*polygon); !status) return status;
+    const std::size_t parts = decompose_polygon(polygon->vertices)->size();
+    return Checks("polygon.")
+        .require(parts == 1, ErrorCode::kInvalidValue, "vertices", std::to_string(polygon->vertices.size()),
+                 "a polygon that queries must be convex and have at most " + std::to_string(kPolygonVerticesMax) +
+                     " vertices")
+        .result();
+  }
+  if (const auto* box = std::get_if<Box>(&geometry)) return check_geometry(*box);
+  if (const auto* circle = std::get_if<Circle>(&geometry)) return check_geometry(*circle);
+  if (const auto* capsule = std::get_if<Capsule>(&geometry)) return check_geometry(*capsule);
+  return {};
+}
+
+Status check_options(const QueryOptions& options) {
+  return Checks().range("count_max", options.count_max, 1, kQueryHitsMax).result();
 }
 
 Status check_limits(const std::optional<JointLimits>& limits, double low, double high) {
@@ -236,6 +257,34 @@ Status check_bounded(const char* field, double value, double bound) {
 
 Status check_vector(const char* field, const Vec2& value, double bound) {
   return Checks().vector(field, value, bound).result();
+}
+
+Status check_query_shape(const QueryShape& shape) {
+  return Checks("shape.")
+      .add(check_query_geometry(shape.geometry))
+      .vector("position", shape.position, kCoordinateMax)
+      .bounded("angle", shape.angle, kCoordinateMax)
+      .result();
+}
+
+Status check_cast(const QueryShape& shape, const Vec2& translation, const QueryOptions& options) {
+  return Checks()
+      .add(check_query_shape(shape))
+      .vector("translation", translation, kCoordinateMax)
+      .add(check_options(options))
+      .result();
+}
+
+Status check_overlap(const QueryShape& shape, const QueryOptions& options) {
+  return Checks().add(check_query_shape(shape)).add(check_options(options)).result();
+}
+
+Status check_closest(const QueryShape& shape, double distance_max, const QueryOptions& options) {
+  return Checks()
+      .add(check_query_shape(shape))
+      .range("distance_max", distance_max, 0, kCoordinateMax)
+      .add(check_options(options))
+      .result();
 }
 
 Status check_settings(const WorldSettings& s) {

@@ -12,6 +12,7 @@
 #include "physics/joint_state.h"
 #include "physics/motion.h"
 #include "physics/query.h"
+#include "physics/shape_query.h"
 #include "physics/sleep.h"
 #include "physics/solver/soft_step.h"
 #include "physics/solver/thesis.h"
@@ -418,6 +419,27 @@ Expected<std::vector<NearHit>> WorldOf<S>::query_nearest(const Vec2& point, doub
     return failure(ErrorCode::kInvalidValue, "distance_max", std::to_string(distance_max),
                    "distance_max must be between 0 and 1e7");
   return bodies_near(data_, point, distance_max, count_max);
+}
+
+template <class S>
+Expected<QueryHits<CastHit>> WorldOf<S>::query_cast(const QueryShape& shape, const Vec2& translation,
+                                                    const QueryOptions& options) const {
+  if (Status status = check_cast(shape, translation, options); !status) return tl::unexpected<Error>(status.error());
+  return bodies_cast_at(data_, shape, translation, options);
+}
+
+template <class S>
+Expected<QueryHits<BodyId>> WorldOf<S>::query_overlap(const QueryShape& shape, const QueryOptions& options) const {
+  if (Status status = check_overlap(shape, options); !status) return tl::unexpected<Error>(status.error());
+  return bodies_overlapping(data_, shape, options);
+}
+
+template <class S>
+Expected<QueryHits<ClosestHit>> WorldOf<S>::query_closest(const QueryShape& shape, double distance_max,
+                                                          const QueryOptions& options) const {
+  if (Status status = check_closest(shape, distance_max, options); !status)
+    return tl::unexpected<Error>(status.error());
+  return bodies_closest_to(data_, shape, distance_max, options);
 }
 
 // State ---------------------------------------------------------------------------------------------------------

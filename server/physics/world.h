@@ -14,6 +14,7 @@
 #include "physics/definitions.h"
 #include "physics/error.h"
 #include "physics/joint_definitions.h"
+#include "physics/query_shape.h"
 
 namespace urto {
 
@@ -182,6 +183,12 @@ class World {
   virtual Expected<std::vector<RayHit>> query_ray(const Vec2& origin, const Vec2& translation) const = 0;
   virtual Expected<std::vector<NearHit>> query_nearest(const Vec2& point, double distance_max,
                                                        std::uint32_t count_max) const = 0;
+  // With a shape (shape_query.h). Errors: those of the checks of query_shape.h.
+  virtual Expected<QueryHits<CastHit>> query_cast(const QueryShape& shape, const Vec2& translation,
+                                                  const QueryOptions& options) const = 0;
+  virtual Expected<QueryHits<BodyId>> query_overlap(const QueryShape& shape, const QueryOptions& options) const = 0;
+  virtual Expected<QueryHits<ClosestHit>> query_closest(const QueryShape& shape, double distance_max,
+                                                        const QueryOptions& options) const = 0;
 
   // The whole dynamic state as one block. restore() needs a world of the same precision; it takes over the settings
   // of the saved one. Stepping on after a restore gives the bits that stepping on without would have given.

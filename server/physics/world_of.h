@@ -58,6 +58,11 @@ class WorldOf final : public World {
   Expected<std::vector<RayHit>> query_ray(const Vec2& origin, const Vec2& translation) const override;
   Expected<std::vector<NearHit>> query_nearest(const Vec2& point, double distance_max,
                                                std::uint32_t count_max) const override;
+  Expected<QueryHits<CastHit>> query_cast(const QueryShape& shape, const Vec2& translation,
+                                          const QueryOptions& options) const override;
+  Expected<QueryHits<BodyId>> query_overlap(const QueryShape& shape, const QueryOptions& options) const override;
+  Expected<QueryHits<ClosestHit>> query_closest(const QueryShape& shape, double distance_max,
+                                                const QueryOptions& options) const override;
 
   std::vector<std::byte> save() const override;
   Status restore(std::span<const std::byte> state) override;

@@ -269,6 +269,20 @@ class BatchCheck {
 
   Check check_query(const JointsQuery&) const { return std::nullopt; }
 
+  static Check refusal(const Status& status, const std::string& prefix) {
+    if (status) return std::nullopt;
+    return rejection_from(status.error(), prefix);
+  }
+  Check check_query(const CastQuery& query) const {
+    return refusal(check_cast(query.shape, query.translation, query.options), "query.cast.");
+  }
+  Check check_query(const OverlapQuery& query) const {
+    return refusal(check_overlap(query.shape, query.options), "query.overlap.");
+  }
+  Check check_query(const ClosestQuery& query) const {
+    return refusal(check_closest(query.shape, query.distance_max, query.options), "query.closest.");
+  }
+
   Check check_joint(const std::string& command, const JointRef& ref) const {
     if (joints_.find(ref)) return std::nullopt;
     const bool by_id = std::holds_alternative<JointId>(ref);

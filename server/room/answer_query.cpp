@@ -71,6 +71,37 @@ struct Visitor {
     result.joints = std::move(*infos);
     return result;
   }
+
+  Answered operator()(const CastQuery& query) const {
+    const auto found = context.world.query_cast(query.shape, query.translation, query.options);
+    if (!found) return tl::unexpected<Error>(found.error());
+    QueryResult result;
+    result.truncated = found->truncated;
+    for (const CastHit& hit : found->hits) {
+      const double distance = hit.fraction * query.translation.norm();
+      result.hits.push_back({hit.body, hit.point, hit.normal, hit.fraction, distance});
+    }
+    return result;
+  }
+
+  Answered operator()(const OverlapQuery& query) const {
+    const auto found = context.world.query_overlap(query.shape, query.options);
+    if (!found) return tl::unexpected<Error>(found.error());
+    QueryResult result;
+    result.truncated = found->truncated;
+    for (const BodyId id : found->hits) result.hits.push_back({id});
+    return result;
+  }
+
+  Answered operator()(const ClosestQuery& query) const {
+    const auto found = context.world.query_closest(query.shape, query.distance_max, query.options);
+    if (!found) return tl::unexpected<Error>(found.error());
+    QueryResult result;
+    result.truncated = found->truncated;
+    for (const ClosestHit& hit : found->hits)
+      result.hits.push_back({hit.body, hit.point, hit.normal, 0, hit.distance, hit.query_point});
+    return result;
+  }
 };
 
 }  // namespace

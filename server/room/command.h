@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "physics/query_shape.h"
 #include "room/scene.h"
 
 namespace urto {
@@ -100,8 +101,22 @@ struct BodyQuery {
   BodyRef body;
 };
 struct JointsQuery {};
+struct CastQuery {
+  QueryShape shape;
+  Vec2 translation{0, 0};  // m
+  QueryOptions options;
+};
+struct OverlapQuery {
+  QueryShape shape;
+  QueryOptions options;
+};
+struct ClosestQuery {
+  QueryShape shape;
+  double distance_max = 0;  // m
+  QueryOptions options;
+};
 using RoomQuery = std::variant<PointQuery, RegionQuery, RayQuery, NearestQuery, ContactsQuery, DiagnosticsQuery,
-                               BodyQuery, JointsQuery>;
+                               BodyQuery, JointsQuery, CastQuery, OverlapQuery, ClosestQuery>;
 
 using Command = std::variant<Spawn, Despawn, Impulse, Force, SetVelocity, SetTransform, Pause, Resume, Step, Reset,
                              SetTimeScale, CreateJoint, DestroyJoint, SetMotor, SetTarget, RoomQuery>;

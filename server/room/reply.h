@@ -54,10 +54,11 @@ struct JointInfo {
 
 struct BodyHit {
   BodyId id = 0;
-  Vec2 point{0, 0};     // m, world frame
-  Vec2 normal{0, 0};    // unit, out of the body (ray and nearest)
-  double fraction = 0;  // of the ray's translation
-  double distance = 0;  // m (nearest)
+  Vec2 point{0, 0};        // m, world frame
+  Vec2 normal{0, 0};       // unit, out of the body (ray, cast, nearest and closest)
+  double fraction = 0;     // of the translation of a ray or a cast
+  double distance = 0;     // m (of the way of a ray or a cast; nearest; closest: negative if they overlap)
+  Vec2 query_point{0, 0};  // m, world frame, of the query's shape (closest)
 };
 
 struct Diagnostics {
@@ -69,6 +70,7 @@ struct Diagnostics {
 
 struct QueryResult {
   std::vector<BodyHit> hits;
+  bool truncated = false;  // cast, overlap and closest: more bodies were found
   std::optional<std::vector<ContactPoint>> contacts;
   std::optional<Diagnostics> diagnostics;
   std::optional<BodyInfo> body;

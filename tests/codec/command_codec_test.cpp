@@ -80,6 +80,36 @@ TEST(CommandCodec, DecodesEveryQuery) {
   EXPECT_EQ(std::get<std::string>(std::get<BodyQuery>(query("body { body { name: 'a' } }")).body), "a");
 }
 
+TEST(CommandCodec, DecodesQueriesWithAShape) {
+  const auto query = [](const std::string& text) { return command<RoomQuery>("query { " + text + " }"); };
+  const auto cast = std::get<CastQuery>(
+      query("cast { shape { box { width: 1 height: 2 radius: 3 } position { x: 4 } angle: 5 } translation { y: 6 }"
+            " filter { category: 7 mask: 8 } count_max: 9 }"));
+  EXPECT_EQ(std::get<Box>(cast.shape.geometry).height, 2);
+  EXPECT_EQ(std::get<Box>(cast.shape.geometry).radius, 3);
+  EXPECT_EQ(cast.shape.position, Vec2(4, 0));
+  EXPECT_EQ(cast.shape.angle, 5);
+  EXPECT_EQ(cast.translation, Vec2(0, 6));
+  EXPECT_EQ(cast.options.filter->category, 7u);
+  EXPECT_EQ(cast.options.filter->mask, 8u);
+  EXPECT_EQ(cast.options.count_max, 9u);
+  const auto overlap = std::get<OverlapQuery>(query("overlap { shape { point {} position { x: 1 y: 2 } } }"));
+  EXPECT_TRUE(std::holds_alternative<PointGeometry>(overlap.shape.geometry));
+  EXPECT_EQ(overlap.shape.position, Vec2(1, 2));
+  EXPECT_FALSE(overlap.options.filter);
+  EXPECT_EQ(overlap.options.count_max, kQueryHitsDefault);  // of 0
+  const auto closest = std::get<ClosestQuery>(
+      query("closest { shape { capsule { a { x: 1 } b { x: 2 } radius: 3 } } distance_max: 4 filter { mask: 2 } }"));
+  EXPECT_EQ(std::get<Capsule>(closest.shape.geometry).b, Vec2(2, 0));
+  EXPECT_EQ(closest.distance_max, 4);
+  EXPECT_EQ(closest.options.filter->category, 0xffffffffu);
+  EXPECT_EQ(closest.options.filter->mask, 2u);
+  const auto polygon = query("overlap { shape { polygon { vertices {} vertices { x: 1 } vertices { y: 1 } } } }");
+  EXPECT_EQ(std::get<Polygon>(std::get<OverlapQuery>(polygon).shape.geometry).vertices.size(), 3u);
+  const auto circle = query("overlap { shape { circle { radius: 2 } } }");
+  EXPECT_EQ(std::get<Circle>(std::get<OverlapQuery>(circle).shape.geometry).radius, 2);
+}
+
 struct BadCommand {
   std::string name;
   std::string text;
@@ -125,6 +155,13 @@ INSTANTIATE_TEST_SUITE_P(
         {"TransformWithoutBody", "set_transform {}", RejectionCode::kMalformed, "set_transform.body"},
         {"NanTimeScale", "set_time_scale { scale: nan }", RejectionCode::kInvalidValue, "set_time_scale.scale"},
         {"EmptyQuery", "query {}", RejectionCode::kMalformed, "query.query"},
+        {"CastOfNothing", "query { cast {} }", RejectionCode::kMalformed, "query.cast.shape"},
+        {"OverlapOfNothing", "query { overlap {} }", RejectionCode::kMalformed, "query.overlap.shape"},
+        {"ClosestToNothing", "query { closest {} }", RejectionCode::kMalformed, "query.closest.shape"},
+        {"QueryShapeWithoutGeometry", "query { closest { shape {} } }", RejectionCode::kMalformed,
+         "query.closest.shape.geometry"},
+        {"NanShape", "query { cast { shape { circle { radius: nan } } } }", RejectionCode::kInvalidValue,
+         "query.cast.shape.circle.radius"},
         {"HalfRegion", "query { region { lower {} } }", RejectionCode::kMalformed, "query.region.upper"},
         {"BodyQueryOfNothing", "query { body {} }", RejectionCode::kMalformed, "query.body.body"},
     }),

@@ -64,8 +64,23 @@ class RandomCommands {
     return spec;
   }
 
+  QueryShape shape() {
+    QueryShape shape{PointGeometry{}, vector(), number()};
+    if (pick(3) == 0) shape.geometry = Circle{std::abs(number()), {0, 0}};
+    if (pick(3) == 0) shape.geometry = Box{std::abs(number()), std::abs(number()), vector(), number()};
+    if (pick(3) == 0) shape.geometry = Polygon{{vector(), vector(), vector()}, 0};
+    return shape;
+  }
+
+  QueryOptions options() {
+    QueryOptions options;
+    if (pick(2) == 0) options.filter = Filter{static_cast<std::uint32_t>(pick(4)), static_cast<std::uint32_t>(pick(4))};
+    options.count_max = static_cast<std::uint32_t>(pick(4));
+    return options;
+  }
+
   Command command() {
-    switch (pick(14)) {
+    switch (pick(16)) {
       case 0:
       case 1:
         return Spawn{spec()};
@@ -90,6 +105,11 @@ class RandomCommands {
         return RoomQuery(NearestQuery{vector(), std::abs(number()), static_cast<std::uint32_t>(pick(3))});
       case 12:
         return RoomQuery(BodyQuery{body()});
+      case 13:
+        return RoomQuery(CastQuery{shape(), vector(), options()});
+      case 14:
+        return pick(2) == 0 ? RoomQuery(OverlapQuery{shape(), options()})
+                            : RoomQuery(ClosestQuery{shape(), std::abs(number()), options()});
       default:
         return pick(20) == 0 ? Command(Reset{}) : Command(RoomQuery(ContactsQuery{}));
     }

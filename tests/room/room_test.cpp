@@ -185,6 +185,18 @@ INSTANTIATE_TEST_SUITE_P(
          "query.nearest.distance_max"},
         {"ManyNearest", RoomQuery(NearestQuery{{0, 0}, 1, 1025}), RejectionCode::kInvalidValue,
          "query.nearest.count_max"},
+        {"CastOfANegativeBox", RoomQuery(CastQuery{{Box{1, -1, {0, 0}, 0}, {0, 0}, 0}, {1, 0}, {}}),
+         RejectionCode::kInvalidValue, "query.cast.shape.box.height"},
+        {"FarCast", RoomQuery(CastQuery{{PointGeometry{}, {0, 0}, 0}, {0, 1e9}, {}}), RejectionCode::kInvalidValue,
+         "query.cast.translation.y"},
+        {"OverlapOfALine", RoomQuery(OverlapQuery{{Polygon{{{0, 0}, {1, 0}, {2, 0}}, 0}, {0, 0}, 0}, {}}),
+         RejectionCode::kDegenerateShape, "query.overlap.shape.polygon.vertices[2]"},
+        {"ManyOverlaps", RoomQuery(OverlapQuery{{PointGeometry{}, {0, 0}, 0}, {std::nullopt, 4097}}),
+         RejectionCode::kInvalidValue, "query.overlap.count_max"},
+        {"ClosestAtNan", RoomQuery(ClosestQuery{{PointGeometry{}, {0, kNan}, 0}, 1, {}}), RejectionCode::kInvalidValue,
+         "query.closest.shape.position.y"},
+        {"ClosestBehind", RoomQuery(ClosestQuery{{PointGeometry{}, {0, 0}, 0}, -1, {}}), RejectionCode::kInvalidValue,
+         "query.closest.distance_max"},
         {"UnknownBodyQuery", RoomQuery(BodyQuery{"nobody"}), RejectionCode::kUnknownBody, "query.body.body.name"},
     }),
     [](const auto& each) { return each.param.name; });
@@ -562,6 +574,37 @@ TEST(Room, QueriesSeeTheWorldAsItIsAtTheirTurn) {
   EXPECT_NEAR(reply.results[5].query->hits[0].distance, 1.5, 1e-12);
   EXPECT_TRUE(reply.results[6].query->contacts);
   EXPECT_EQ(reply.results[7].query->diagnostics->state_hash, driver.room->world().state_hash());
+}
+
+TEST(Room, QueriesWithAShapeAreAnsweredInOrder) {
+  RoomDriver driver(paused_settings());
+  QueryOptions one;
+  one.count_max = 1;
+  const QueryShape disc{Circle{0.5, {0, 0}}, {3, 10}, 0};
+  const BatchReply reply = driver.ask({Spawn{box_body("crate", {3, 3})}, RoomQuery(CastQuery{disc, {0, -20}, {}}),
+                                       RoomQuery(CastQuery{disc, {0, -20}, one}),
+                                       RoomQuery(OverlapQuery{{Box{1, 8, {0, 0}, 0}, {3, 3}, 0}, {}}),
+                                       RoomQuery(ClosestQuery{{Circle{0.5, {0, 0}}, {3, 4.2}, 0}, 20, one})});
+  ASSERT_FALSE(reply.rejection) << reply.rejection->message;
+  const BodyId crate = reply.results[0].id;
+  const QueryResult& cast = *reply.results[1].query;
+  ASSERT_THAT(cast.hits, SizeIs(2));
+  EXPECT_FALSE(cast.truncated);
+  EXPECT_EQ(cast.hits[0].id, crate);
+  EXPECT_NEAR(cast.hits[0].fraction, 6.0 / 20, 1e-12);
+  EXPECT_NEAR(cast.hits[0].distance, 6, 1e-12);
+  EXPECT_NEAR(cast.hits[0].point.y(), 3.5, 1e-12);
+  EXPECT_NEAR(cast.hits[0].normal.y(), 1, 1e-12);
+  EXPECT_NEAR(cast.hits[1].distance, 9.5, 1e-12);  // the floor
+  EXPECT_THAT(reply.results[2].query->hits, SizeIs(1));
+  EXPECT_TRUE(reply.results[2].query->truncated);
+  EXPECT_THAT(reply.results[3].query->hits, SizeIs(2));
+  const QueryResult& closest = *reply.results[4].query;
+  ASSERT_THAT(closest.hits, SizeIs(1));
+  EXPECT_TRUE(closest.truncated);
+  EXPECT_EQ(closest.hits[0].id, crate);
+  EXPECT_NEAR(closest.hits[0].distance, 0.2, 1e-12);
+  EXPECT_NEAR(closest.hits[0].query_point.y(), 3.7, 1e-12);
 }
 
 TEST(Room, ContactsBecomeEventsUpToTheLimit) {

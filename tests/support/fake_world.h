@@ -61,6 +61,16 @@ class FakeWorld : public World {
     return std::vector<NearHit>();
   }
 
+  Expected<QueryHits<CastHit>> query_cast(const QueryShape&, const Vec2&, const QueryOptions&) const override {
+    return QueryHits<CastHit>();
+  }
+  Expected<QueryHits<BodyId>> query_overlap(const QueryShape&, const QueryOptions&) const override {
+    return QueryHits<BodyId>();
+  }
+  Expected<QueryHits<ClosestHit>> query_closest(const QueryShape&, double, const QueryOptions&) const override {
+    return QueryHits<ClosestHit>();
+  }
+
   std::vector<std::byte> save() const override { return {}; }
   Status restore(std::span<const std::byte>) override { return {}; }
   std::uint64_t state_hash() const override { return 42 + step_count_; }

@@ -42,6 +42,12 @@ def test_a_body_flies_as_computed(fake: FakeRoom) -> None:
         assert (await body.info()).velocity == frame[body].velocity
         assert await room.energy() == 7
         assert [hit.body for hit in await room.query_point((0, 0))] == [body]
+        for hits in (
+            await room.query_cast((0, 0), (1, 1)),
+            await room.query_overlap(urto.Circle(radius=1)),
+            await room.query_closest((0, 0), distance_max=1),
+        ):
+            assert ([hit.body for hit in hits], hits.truncated) == ([body], False)
 
     _with_room(fake, use)
 

@@ -7,6 +7,7 @@ import math
 import subprocess
 import sys
 import threading
+from typing import Any
 
 import numpy as np
 import pytest
@@ -296,6 +297,58 @@ def test_questions(room: urto.Room) -> None:
         1, "ball", (1, 2), ("a", "b"), 0x102030,
     )  # fmt: skip
     assert room.state(saved_state=True).saved_state == b"saved"
+
+
+def test_queries_with_a_shape(room: urto.Room, fake: FakeRoom) -> None:
+    first, second = room.spawn([urto.Circle(radius=1, position=(1, 2)), urto.Circle(radius=1, position=(4, 2))])
+    box = urto.Box(width=2, height=1, position=(3, 4), angle=0.5)
+    hits = room.query_cast(box, (0, -5), category=2, mask=0xFFFFFFFF)
+    assert [(hit.body, hit.point, hit.fraction) for hit in hits] == [(first, (1, 2), 0.5), (second, (4, 2), 0.5)]
+    assert not hits.truncated
+    cast = fake.batches[-1].commands[0].query.cast
+    assert (cast.shape.box.width, cast.shape.box.height, cast.shape.box.center.x, cast.shape.box.angle) == (2, 1, 0, 0)
+    assert (cast.shape.position.x, cast.shape.position.y, cast.shape.angle) == (3, 4, 0.5)
+    assert (cast.translation.x, cast.translation.y, cast.count_max) == (0, -5, 0)
+    assert (cast.filter.category, cast.filter.mask) == (2, 0xFFFFFFFF)
+    hits = room.query_overlap((7, 8), count_max=1)
+    assert ([hit.body for hit in hits], hits.truncated) == ([first], True)
+    overlap = fake.batches[-1].commands[0].query.overlap
+    assert (overlap.shape.WhichOneof("geometry"), overlap.shape.position.y, overlap.count_max) == ("point", 8, 1)
+    assert not overlap.HasField("filter")
+    hits = room.query_closest(urto.Capsule(a=(0, 0), b=(1, 0), radius=0.5, position=(5, 6)), distance_max=3, mask=4)
+    assert [(hit.distance, hit.query_point) for hit in hits] == [(-0.25, (5, 6))] * 2
+    closest = fake.batches[-1].commands[0].query.closest
+    assert (closest.shape.capsule.b.x, closest.shape.capsule.radius, closest.distance_max) == (1, 0.5, 3)
+    assert (closest.filter.HasField("category"), closest.filter.mask) == (False, 4)
+    triangle = urto.Polygon(vertices=[(0, 0), (1, 0), (0, 1)], radius=0.1)
+    room.query_overlap(triangle)
+    assert len(fake.batches[-1].commands[0].query.overlap.shape.polygon.vertices) == 3
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lambda room: room.query_overlap(urto.Chain(vertices=[(0, 0), (1, 0)])),
+        lambda room: room.query_overlap(urto.Body(shapes=[urto.Circle(radius=1)])),
+        lambda room: room.query_overlap(urto.Circle(radius=1, mask=2)),
+        lambda room: room.query_overlap("here"),
+        lambda room: room.query_overlap((0, 0), mask=-1),
+        lambda room: room.query_overlap((0, 0), count_max=0),
+        lambda room: room.query_overlap((0, 0), count_max=1.5),
+        lambda room: room.query_cast((0, 0), 3),
+        lambda room: room.query_closest((0, 0), distance_max="far"),
+    ],
+)
+def test_a_query_that_makes_no_sense_is_not_sent(room: urto.Room, fake: FakeRoom, ask: Any) -> None:
+    with pytest.raises(urto.InvalidArgument):
+        ask(room)
+    assert not fake.batches
+
+
+def test_a_query_that_the_room_refuses_is_raised(room: urto.Room) -> None:
+    with pytest.raises(urto.InvalidValue) as refused:
+        room.query_closest((0, 0), distance_max=-1)
+    assert refused.value.field == "query.closest.distance_max"
 
 
 def test_pause_resume_reset_and_time_scale(room: urto.Room, fake: FakeRoom) -> None:

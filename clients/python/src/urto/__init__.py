@@ -24,6 +24,7 @@ from urto._bodies import (
     Chain,
     Circle,
     Polygon,
+    QueryShape,
     Shape,
     Spawnable,
     Vector,
@@ -89,7 +90,7 @@ from urto._joints import (
     WeldJoint,
 )
 from urto._keys import DEFAULT_ENDPOINT
-from urto._room import BodyHandle, BodyHit, Events, Frames, Room, connect, rooms
+from urto._room import BodyHandle, BodyHit, Events, Frames, Hits, Room, connect, rooms
 
 __version__ = "0.1.0"
 
@@ -127,6 +128,7 @@ __all__ = [
     "Feature",
     "Frame",
     "Frames",
+    "Hits",
     "InvalidArgument",
     "InvalidValue",
     "Joint",
@@ -148,6 +150,7 @@ __all__ = [
     "Polygon",
     "PrismaticJoint",
     "ProtocolError",
+    "QueryShape",
     "QueueFull",
     "QuotaExceeded",
     "Rejected",

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Literal, SupportsFloat, TypeAlias, TypedDict
 
 from urto._exceptions import InvalidArgument
-from urto._proto.v1 import scene_pb2, snapshot_pb2
+from urto._proto.v1 import command_pb2, scene_pb2, snapshot_pb2
 
 Vector: TypeAlias = tuple[float, float]
 """A vector or a point (x, y); the field that holds it gives unit and frame."""
@@ -188,6 +188,10 @@ class Body(_BodyFields):
 Spawnable: TypeAlias = Shape | Body
 """What `Room.spawn` takes."""
 
+QueryShape: TypeAlias = Box | Circle | Polygon | Capsule | VectorLike
+"""What casts, overlaps and closest-point queries look with: a convex shape at its `position` (m, world frame) and
+`angle` (rad), or a point (m, world frame). Of a shape only these and its geometry count."""
+
 _SHAPE_ONLY_DEFAULTS = {
     field.name: field.default
     for field in dataclasses.fields(_BodyFields)
@@ -228,6 +232,36 @@ def body_to_proto(description: Spawnable) -> scene_pb2.Body:
     if description.color is not None:
         body.color = _bits("color", description.color)
     return body
+
+
+def query_shape_to_proto(shape: object) -> command_pb2.QueryShape:
+    """The message of a point or of a convex shape at its place."""
+    if not isinstance(shape, Shape):
+        return command_pb2.QueryShape(point=command_pb2.Point(), position=vector_to_proto("shape", shape))
+    if isinstance(shape, Chain):
+        raise InvalidArgument("a query takes a Box, Circle, Polygon, Capsule or a point, not a Chain")
+    if shape.category is not None or shape.mask is not None:
+        raise InvalidArgument("category and mask belong to the query: give them to it instead of to its shape")
+    geometry = _shape_to_proto(shape, (0.0, 0.0), 0.0)
+    message = command_pb2.QueryShape(
+        position=vector_to_proto("position", shape.position), angle=to_number("angle", shape.angle)
+    )
+    kind = geometry.WhichOneof("geometry")
+    assert kind is not None
+    getattr(message, kind).CopyFrom(getattr(geometry, kind))
+    return message
+
+
+def query_filter_to_proto(category: int | None, mask: int | None) -> command_pb2.QueryFilter | None:
+    """None if nothing is filtered."""
+    if category is None and mask is None:
+        return None
+    message = command_pb2.QueryFilter()
+    if category is not None:
+        message.category = _bits("category", category)
+    if mask is not None:
+        message.mask = _bits("mask", mask)
+    return message
 
 
 def _shape_in_body(index: int, shape: Shape) -> scene_pb2.Shape:

@@ -2,9 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from urto._bodies import Spawnable, VectorLike, body_to_proto, to_number, vector_to_proto
+from urto._bodies import (
+    QueryShape,
+    Spawnable,
+    VectorLike,
+    body_to_proto,
+    query_filter_to_proto,
+    query_shape_to_proto,
+    to_number,
+    vector_to_proto,
+)
 from urto._exceptions import InvalidArgument
 from urto._joints import BodyRef, Joint, JointRef, Motor, body_ref, joint_ref
 from urto._proto.v1 import command_pb2
@@ -136,13 +146,66 @@ def query_ray(origin: VectorLike, translation: VectorLike) -> command_pb2.Comman
     return _query(command_pb2.Query(ray=ray))
 
 
+def _count(what: str, value: int) -> int:
+    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < 2**32:
+        raise InvalidArgument(f"{what} must be a whole number, not {value!r}")
+    return value
+
+
 def query_nearest(point: VectorLike, distance_max: float, count_max: int) -> command_pb2.Command:
-    if isinstance(count_max, bool) or not isinstance(count_max, int) or not 0 <= count_max < 2**32:
-        raise InvalidArgument(f"count_max must be a whole number, not {count_max!r}")
     nearest = command_pb2.NearestQuery(
-        point=vector_to_proto("point", point), distance_max=to_number("distance_max", distance_max), count_max=count_max
+        point=vector_to_proto("point", point),
+        distance_max=to_number("distance_max", distance_max),
+        count_max=_count("count_max", count_max),
     )
     return _query(command_pb2.Query(nearest=nearest))
+
+
+@dataclass(frozen=True)
+class QueryOptions:
+    """What a query with a shape sees, and how much of it; None: everything, and as many as the room's default."""
+
+    category: int | None = None
+    mask: int | None = None
+    count_max: int | None = None
+
+    def count(self) -> int:
+        """As the wire has it, where 0 is the default."""
+        if self.count_max is None:
+            return 0
+        if _count("count_max", self.count_max) == 0:
+            raise InvalidArgument("count_max must be at least 1")
+        return self.count_max
+
+    def filter(self) -> command_pb2.QueryFilter | None:
+        return query_filter_to_proto(self.category, self.mask)
+
+
+def query_cast(shape: QueryShape, translation: VectorLike, options: QueryOptions) -> command_pb2.Command:
+    cast = command_pb2.CastQuery(
+        shape=query_shape_to_proto(shape),
+        translation=vector_to_proto("translation", translation),
+        filter=options.filter(),
+        count_max=options.count(),
+    )
+    return _query(command_pb2.Query(cast=cast))
+
+
+def query_overlap(shape: QueryShape, options: QueryOptions) -> command_pb2.Command:
+    overlap = command_pb2.OverlapQuery(
+        shape=query_shape_to_proto(shape), filter=options.filter(), count_max=options.count()
+    )
+    return _query(command_pb2.Query(overlap=overlap))
+
+
+def query_closest(shape: QueryShape, distance_max: float, options: QueryOptions) -> command_pb2.Command:
+    closest = command_pb2.ClosestQuery(
+        shape=query_shape_to_proto(shape),
+        distance_max=to_number("distance_max", distance_max),
+        filter=options.filter(),
+        count_max=options.count(),
+    )
+    return _query(command_pb2.Query(closest=closest))
 
 
 def query_contacts() -> command_pb2.Command:

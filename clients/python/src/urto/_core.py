@@ -8,7 +8,7 @@ import math
 import secrets
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import Any, Generic, Protocol, TypeVar
@@ -66,10 +66,12 @@ class BodyHit(Generic[H]):
 
     Attributes:
         body: its handle.
-        point: m, world frame: where the ray enters, or the body's point nearest to the query's.
-        normal: unit, out of the body (ray and nearest).
-        fraction: of the ray's translation, 0 to 1.
-        distance: m (nearest); 0 inside.
+        point: m, world frame: where the ray enters, where the cast shape touches, or the body's point nearest to the
+            query's.
+        normal: unit, out of the body (ray, cast, nearest and closest); zero if a ray or a cast starts inside.
+        fraction: of the translation of a ray or a cast, 0 to 1.
+        distance: m. Ray and cast: come so far; nearest: 0 inside; closest: negative if they overlap.
+        query_point: m, world frame: the point of the query's shape nearest to the body (closest).
     """
 
     body: H
@@ -77,6 +79,19 @@ class BodyHit(Generic[H]):
     normal: Vector
     fraction: float
     distance: float
+    query_point: Vector
+
+
+class Hits(list[BodyHit[H]]):
+    """What a query found, in its order.
+
+    Attributes:
+        truncated: more bodies were found than asked for; those that come later in the order are left out.
+    """
+
+    def __init__(self, hits: Iterable[BodyHit[H]], truncated: bool) -> None:
+        super().__init__(hits)
+        self.truncated = truncated
 
 
 @dataclass(frozen=True)
@@ -378,18 +393,20 @@ class Core:
             saved_state=message.saved_state,
         )
 
-    def hits(self, command: command_pb2.Command, make_handle: Callable[[int, str], H]) -> Op[list[BodyHit[H]]]:
+    def hits(self, command: command_pb2.Command, make_handle: Callable[[int, str], H]) -> Op[Hits[H]]:
         result = yield from self.query(command)
-        return [
+        hits = [
             BodyHit(
                 make_handle(hit.id, ""),
                 vector_from_proto(hit.point),
                 vector_from_proto(hit.normal),
                 hit.fraction,
                 hit.distance,
+                vector_from_proto(hit.query_point),
             )
             for hit in result.hits
         ]
+        return Hits(hits, result.truncated)
 
     def body_info(self, body: _commands.BodyRef) -> Op[BodyInfo]:
         result = yield from self.query(_commands.query_body(body))

@@ -10,8 +10,8 @@ from typing import TypeAlias, overload
 
 from urto import _commands, _core
 from urto._batch import Batch
-from urto._bodies import BodyInfo, Spawnable, VectorLike
-from urto._commands import BodyRef, FrameName
+from urto._bodies import BodyInfo, QueryShape, Spawnable, VectorLike
+from urto._commands import BodyRef, FrameName, QueryOptions
 from urto._core import Core, EventCursor, FrameCursor, RoomState
 from urto._events import Event
 from urto._frame import Contacts, Frame
@@ -123,6 +123,9 @@ class BodyHandle(Handle):
 
 BodyHit: TypeAlias = _core.BodyHit[BodyHandle]
 """A body that a query found; see its attributes."""
+
+Hits: TypeAlias = _core.Hits[BodyHandle]
+"""A list of `BodyHit`s that knows whether it is all of them: `truncated`."""
 
 
 class Room:
@@ -346,6 +349,87 @@ class Room:
     def query_nearest(self, point: VectorLike, *, distance_max: float, count_max: int = 1) -> list[BodyHit]:
         """Up to `count_max` (at most 1024) bodies within `distance_max` m of a point (world frame), nearest first."""
         return run(self._core.hits(_commands.query_nearest(point, distance_max, count_max), self._handle))
+
+    def query_cast(
+        self,
+        shape: QueryShape,
+        translation: VectorLike,
+        *,
+        category: int | None = None,
+        mask: int | None = None,
+        count_max: int | None = None,
+    ) -> Hits:
+        """Moves a shape along `translation` (m) without turning it; the bodies that it meets, earliest first.
+
+        Each body is named with its first touch: `fraction`, `distance`, `point` and `normal`. What the shape touches or
+        overlaps at the start is met at fraction 0 with the normal (0, 0), also if it moves away from it. Chains are
+        seen from both sides, sensors not at all.
+
+        Args:
+            shape: a Box, Circle, Polygon (convex, at most 8 vertices) or Capsule at its position and angle in the
+                world, or a point, which makes it a ray.
+            translation: m, world frame, up to 1e7 along each axis.
+            category: bit set of 32: what the shape is; None: every bit. With both None all shapes are seen.
+            mask: bit set of 32: what it sees; None: every bit. A shape is seen if each mask has a bit of the other's
+                category.
+            count_max: of bodies, 1 to 4096; None: 256. Later ones are left out, and `truncated` says so.
+
+        Raises:
+            InvalidValue, DegenerateShape: a value outside its range; the error names the field.
+        """
+        options = QueryOptions(category, mask, count_max)
+        return run(self._core.hits(_commands.query_cast(shape, translation, options), self._handle))
+
+    def query_overlap(
+        self,
+        shape: QueryShape,
+        *,
+        category: int | None = None,
+        mask: int | None = None,
+        count_max: int | None = None,
+    ) -> Hits:
+        """Bodies that a shape touches or overlaps, ascending id: by their own shapes, not by their bounds.
+
+        A `Box` at its centre asks for an axis-aligned rectangle, a point for what contains it.
+
+        Args:
+            shape: as in `query_cast`.
+            category: as in `query_cast`.
+            mask: as in `query_cast`.
+            count_max: of bodies, 1 to 4096; None: 256. Higher ids are left out, and `truncated` says so.
+
+        Raises:
+            InvalidValue, DegenerateShape: a value outside its range; the error names the field.
+        """
+        options = QueryOptions(category, mask, count_max)
+        return run(self._core.hits(_commands.query_overlap(shape, options), self._handle))
+
+    def query_closest(
+        self,
+        shape: QueryShape,
+        *,
+        distance_max: float,
+        category: int | None = None,
+        mask: int | None = None,
+        count_max: int | None = None,
+    ) -> Hits:
+        """Bodies within `distance_max` m of a shape, nearest first, with the nearest points of both.
+
+        `point` is the body's, `query_point` the shape's, `normal` the direction from the first to the second. Of what
+        overlaps, `distance` is negative: moved by −distance along the normal, the shape is free of the body.
+
+        Args:
+            shape: as in `query_cast`.
+            distance_max: m, 0 to 1e7; 0 finds only what touches or overlaps.
+            category: as in `query_cast`.
+            mask: as in `query_cast`.
+            count_max: of bodies, 1 to 4096; None: 256. Further ones are left out, and `truncated` says so.
+
+        Raises:
+            InvalidValue, DegenerateShape: a value outside its range; the error names the field.
+        """
+        options = QueryOptions(category, mask, count_max)
+        return run(self._core.hits(_commands.query_closest(shape, distance_max, options), self._handle))
 
 
 class Frames:

@@ -25,8 +25,8 @@ from typing import TypeAlias, overload
 
 from urto import _commands, _core
 from urto._batch import Batch
-from urto._bodies import BodyInfo, Spawnable, VectorLike
-from urto._commands import BodyRef, FrameName
+from urto._bodies import BodyInfo, QueryShape, Spawnable, VectorLike
+from urto._commands import BodyRef, FrameName, QueryOptions
 from urto._core import Core, EventCursor, FrameCursor, RoomState
 from urto._events import Event
 from urto._frame import Contacts, Frame
@@ -37,7 +37,7 @@ from urto._keys import DEFAULT_ENDPOINT
 from urto._op import run_async
 from urto._transport import Transport, ZenohTransport
 
-__all__ = ["BodyHandle", "BodyHit", "Events", "Frames", "Room", "connect", "rooms"]
+__all__ = ["BodyHandle", "BodyHit", "Events", "Frames", "Hits", "Room", "connect", "rooms"]
 
 
 async def connect(
@@ -109,6 +109,9 @@ class BodyHandle(Handle):
 
 BodyHit: TypeAlias = _core.BodyHit[BodyHandle]
 """A body that a query found; see its attributes."""
+
+Hits: TypeAlias = _core.Hits[BodyHandle]
+"""A list of `BodyHit`s that knows whether it is all of them."""
 
 
 class Room:
@@ -297,6 +300,44 @@ class Room:
     ) -> list[BodyHit]:
         """Up to `count_max` bodies within `distance_max` m of a point, nearest first."""
         return await run_async(self._core.hits(_commands.query_nearest(point, distance_max, count_max), self._handle))
+
+    async def query_cast(
+        self,
+        shape: QueryShape,
+        translation: VectorLike,
+        *,
+        category: int | None = None,
+        mask: int | None = None,
+        count_max: int | None = None,
+    ) -> Hits:
+        """Moves a shape along `translation` (m); bodies that it meets, earliest first. See `urto.Room.query_cast`."""
+        options = QueryOptions(category, mask, count_max)
+        return await run_async(self._core.hits(_commands.query_cast(shape, translation, options), self._handle))
+
+    async def query_overlap(
+        self,
+        shape: QueryShape,
+        *,
+        category: int | None = None,
+        mask: int | None = None,
+        count_max: int | None = None,
+    ) -> Hits:
+        """Bodies that a shape touches or overlaps, ascending id. See `urto.Room.query_overlap`."""
+        options = QueryOptions(category, mask, count_max)
+        return await run_async(self._core.hits(_commands.query_overlap(shape, options), self._handle))
+
+    async def query_closest(
+        self,
+        shape: QueryShape,
+        *,
+        distance_max: float,
+        category: int | None = None,
+        mask: int | None = None,
+        count_max: int | None = None,
+    ) -> Hits:
+        """Bodies within `distance_max` m of a shape, nearest first. See `urto.Room.query_closest`."""
+        options = QueryOptions(category, mask, count_max)
+        return await run_async(self._core.hits(_commands.query_closest(shape, distance_max, options), self._handle))
 
 
 class Frames:

@@ -310,6 +310,18 @@ class FakeRoom:
             result.diagnostics.state_hash = self.tick * 1000 + len(self.bodies)
             result.diagnostics.kinetic_energy = 3.0
             result.diagnostics.potential_energy = 4.0
+        elif kind == "closest" and query.closest.distance_max < 0:
+            raise Refusal(
+                command_pb2.REJECTION_CODE_INVALID_VALUE, "query.closest.distance_max", str(query.closest.distance_max)
+            )
+        elif kind in ("cast", "overlap", "closest"):  # every body is a point that is met halfway
+            most = getattr(query, kind).count_max or len(self.bodies)
+            result.truncated = len(self.bodies) > most
+            for body_id, body in sorted(self.bodies.items())[:most]:
+                result.hits.add(
+                    id=body_id, point=scene_pb2.Vector(x=body["x"], y=body["y"]), fraction=0.5, distance=-0.25,
+                    query_point=getattr(query, kind).shape.position,
+                )  # fmt: skip
         else:  # where the queried point is near enough: every body is a point here
             for body_id, body in sorted(self.bodies.items()):
                 result.hits.add(id=body_id, point=scene_pb2.Vector(x=body["x"], y=body["y"]), distance=0.5)

@@ -27,24 +27,50 @@ REJECTION_CODE_WRONG_BODY_TYPE: RejectionCode
 REJECTION_CODE_WRONG_JOINT_KIND: RejectionCode
 
 class BodyHit(_message.Message):
-    __slots__ = ["distance", "fraction", "id", "normal", "point"]
+    __slots__ = ["distance", "fraction", "id", "normal", "point", "query_point"]
     DISTANCE_FIELD_NUMBER: _ClassVar[int]
     FRACTION_FIELD_NUMBER: _ClassVar[int]
     ID_FIELD_NUMBER: _ClassVar[int]
     NORMAL_FIELD_NUMBER: _ClassVar[int]
     POINT_FIELD_NUMBER: _ClassVar[int]
+    QUERY_POINT_FIELD_NUMBER: _ClassVar[int]
     distance: float
     fraction: float
     id: int
     normal: _scene_pb2.Vector
     point: _scene_pb2.Vector
-    def __init__(self, id: _Optional[int] = ..., point: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ..., normal: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ..., fraction: _Optional[float] = ..., distance: _Optional[float] = ...) -> None: ...
+    query_point: _scene_pb2.Vector
+    def __init__(self, id: _Optional[int] = ..., point: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ..., normal: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ..., fraction: _Optional[float] = ..., distance: _Optional[float] = ..., query_point: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ...) -> None: ...
 
 class BodyQuery(_message.Message):
     __slots__ = ["body"]
     BODY_FIELD_NUMBER: _ClassVar[int]
     body: _scene_pb2.BodyRef
     def __init__(self, body: _Optional[_Union[_scene_pb2.BodyRef, _Mapping]] = ...) -> None: ...
+
+class CastQuery(_message.Message):
+    __slots__ = ["count_max", "filter", "shape", "translation"]
+    COUNT_MAX_FIELD_NUMBER: _ClassVar[int]
+    FILTER_FIELD_NUMBER: _ClassVar[int]
+    SHAPE_FIELD_NUMBER: _ClassVar[int]
+    TRANSLATION_FIELD_NUMBER: _ClassVar[int]
+    count_max: int
+    filter: QueryFilter
+    shape: QueryShape
+    translation: _scene_pb2.Vector
+    def __init__(self, shape: _Optional[_Union[QueryShape, _Mapping]] = ..., translation: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ..., filter: _Optional[_Union[QueryFilter, _Mapping]] = ..., count_max: _Optional[int] = ...) -> None: ...
+
+class ClosestQuery(_message.Message):
+    __slots__ = ["count_max", "distance_max", "filter", "shape"]
+    COUNT_MAX_FIELD_NUMBER: _ClassVar[int]
+    DISTANCE_MAX_FIELD_NUMBER: _ClassVar[int]
+    FILTER_FIELD_NUMBER: _ClassVar[int]
+    SHAPE_FIELD_NUMBER: _ClassVar[int]
+    count_max: int
+    distance_max: float
+    filter: QueryFilter
+    shape: QueryShape
+    def __init__(self, shape: _Optional[_Union[QueryShape, _Mapping]] = ..., distance_max: _Optional[float] = ..., filter: _Optional[_Union[QueryFilter, _Mapping]] = ..., count_max: _Optional[int] = ...) -> None: ...
 
 class Command(_message.Message):
     __slots__ = ["create_joint", "despawn", "destroy_joint", "force", "impulse", "pause", "query", "reset", "resume", "set_motor", "set_target", "set_time_scale", "set_transform", "set_velocity", "spawn", "step"]
@@ -190,7 +216,21 @@ class NearestQuery(_message.Message):
     point: _scene_pb2.Vector
     def __init__(self, point: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ..., distance_max: _Optional[float] = ..., count_max: _Optional[int] = ...) -> None: ...
 
+class OverlapQuery(_message.Message):
+    __slots__ = ["count_max", "filter", "shape"]
+    COUNT_MAX_FIELD_NUMBER: _ClassVar[int]
+    FILTER_FIELD_NUMBER: _ClassVar[int]
+    SHAPE_FIELD_NUMBER: _ClassVar[int]
+    count_max: int
+    filter: QueryFilter
+    shape: QueryShape
+    def __init__(self, shape: _Optional[_Union[QueryShape, _Mapping]] = ..., filter: _Optional[_Union[QueryFilter, _Mapping]] = ..., count_max: _Optional[int] = ...) -> None: ...
+
 class Pause(_message.Message):
+    __slots__ = []
+    def __init__(self) -> None: ...
+
+class Point(_message.Message):
     __slots__ = []
     def __init__(self) -> None: ...
 
@@ -201,38 +241,72 @@ class PointQuery(_message.Message):
     def __init__(self, point: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ...) -> None: ...
 
 class Query(_message.Message):
-    __slots__ = ["body", "contacts", "diagnostics", "joints", "nearest", "point", "ray", "region"]
+    __slots__ = ["body", "cast", "closest", "contacts", "diagnostics", "joints", "nearest", "overlap", "point", "ray", "region"]
     BODY_FIELD_NUMBER: _ClassVar[int]
+    CAST_FIELD_NUMBER: _ClassVar[int]
+    CLOSEST_FIELD_NUMBER: _ClassVar[int]
     CONTACTS_FIELD_NUMBER: _ClassVar[int]
     DIAGNOSTICS_FIELD_NUMBER: _ClassVar[int]
     JOINTS_FIELD_NUMBER: _ClassVar[int]
     NEAREST_FIELD_NUMBER: _ClassVar[int]
+    OVERLAP_FIELD_NUMBER: _ClassVar[int]
     POINT_FIELD_NUMBER: _ClassVar[int]
     RAY_FIELD_NUMBER: _ClassVar[int]
     REGION_FIELD_NUMBER: _ClassVar[int]
     body: BodyQuery
+    cast: CastQuery
+    closest: ClosestQuery
     contacts: ContactsQuery
     diagnostics: DiagnosticsQuery
     joints: JointsQuery
     nearest: NearestQuery
+    overlap: OverlapQuery
     point: PointQuery
     ray: RayQuery
     region: RegionQuery
-    def __init__(self, point: _Optional[_Union[PointQuery, _Mapping]] = ..., region: _Optional[_Union[RegionQuery, _Mapping]] = ..., ray: _Optional[_Union[RayQuery, _Mapping]] = ..., nearest: _Optional[_Union[NearestQuery, _Mapping]] = ..., contacts: _Optional[_Union[ContactsQuery, _Mapping]] = ..., diagnostics: _Optional[_Union[DiagnosticsQuery, _Mapping]] = ..., body: _Optional[_Union[BodyQuery, _Mapping]] = ..., joints: _Optional[_Union[JointsQuery, _Mapping]] = ...) -> None: ...
+    def __init__(self, point: _Optional[_Union[PointQuery, _Mapping]] = ..., region: _Optional[_Union[RegionQuery, _Mapping]] = ..., ray: _Optional[_Union[RayQuery, _Mapping]] = ..., nearest: _Optional[_Union[NearestQuery, _Mapping]] = ..., contacts: _Optional[_Union[ContactsQuery, _Mapping]] = ..., diagnostics: _Optional[_Union[DiagnosticsQuery, _Mapping]] = ..., body: _Optional[_Union[BodyQuery, _Mapping]] = ..., joints: _Optional[_Union[JointsQuery, _Mapping]] = ..., cast: _Optional[_Union[CastQuery, _Mapping]] = ..., overlap: _Optional[_Union[OverlapQuery, _Mapping]] = ..., closest: _Optional[_Union[ClosestQuery, _Mapping]] = ...) -> None: ...
+
+class QueryFilter(_message.Message):
+    __slots__ = ["category", "mask"]
+    CATEGORY_FIELD_NUMBER: _ClassVar[int]
+    MASK_FIELD_NUMBER: _ClassVar[int]
+    category: int
+    mask: int
+    def __init__(self, category: _Optional[int] = ..., mask: _Optional[int] = ...) -> None: ...
 
 class QueryResult(_message.Message):
-    __slots__ = ["body", "contacts", "diagnostics", "hits", "joints"]
+    __slots__ = ["body", "contacts", "diagnostics", "hits", "joints", "truncated"]
     BODY_FIELD_NUMBER: _ClassVar[int]
     CONTACTS_FIELD_NUMBER: _ClassVar[int]
     DIAGNOSTICS_FIELD_NUMBER: _ClassVar[int]
     HITS_FIELD_NUMBER: _ClassVar[int]
     JOINTS_FIELD_NUMBER: _ClassVar[int]
+    TRUNCATED_FIELD_NUMBER: _ClassVar[int]
     body: _snapshot_pb2.BodyInfo
     contacts: _snapshot_pb2.Contacts
     diagnostics: _snapshot_pb2.Diagnostics
     hits: _containers.RepeatedCompositeFieldContainer[BodyHit]
     joints: _snapshot_pb2.Joints
-    def __init__(self, hits: _Optional[_Iterable[_Union[BodyHit, _Mapping]]] = ..., contacts: _Optional[_Union[_snapshot_pb2.Contacts, _Mapping]] = ..., diagnostics: _Optional[_Union[_snapshot_pb2.Diagnostics, _Mapping]] = ..., body: _Optional[_Union[_snapshot_pb2.BodyInfo, _Mapping]] = ..., joints: _Optional[_Union[_snapshot_pb2.Joints, _Mapping]] = ...) -> None: ...
+    truncated: bool
+    def __init__(self, hits: _Optional[_Iterable[_Union[BodyHit, _Mapping]]] = ..., contacts: _Optional[_Union[_snapshot_pb2.Contacts, _Mapping]] = ..., diagnostics: _Optional[_Union[_snapshot_pb2.Diagnostics, _Mapping]] = ..., body: _Optional[_Union[_snapshot_pb2.BodyInfo, _Mapping]] = ..., joints: _Optional[_Union[_snapshot_pb2.Joints, _Mapping]] = ..., truncated: bool = ...) -> None: ...
+
+class QueryShape(_message.Message):
+    __slots__ = ["angle", "box", "capsule", "circle", "point", "polygon", "position"]
+    ANGLE_FIELD_NUMBER: _ClassVar[int]
+    BOX_FIELD_NUMBER: _ClassVar[int]
+    CAPSULE_FIELD_NUMBER: _ClassVar[int]
+    CIRCLE_FIELD_NUMBER: _ClassVar[int]
+    POINT_FIELD_NUMBER: _ClassVar[int]
+    POLYGON_FIELD_NUMBER: _ClassVar[int]
+    POSITION_FIELD_NUMBER: _ClassVar[int]
+    angle: float
+    box: _scene_pb2.Box
+    capsule: _scene_pb2.Capsule
+    circle: _scene_pb2.Circle
+    point: Point
+    polygon: _scene_pb2.Polygon
+    position: _scene_pb2.Vector
+    def __init__(self, point: _Optional[_Union[Point, _Mapping]] = ..., box: _Optional[_Union[_scene_pb2.Box, _Mapping]] = ..., circle: _Optional[_Union[_scene_pb2.Circle, _Mapping]] = ..., polygon: _Optional[_Union[_scene_pb2.Polygon, _Mapping]] = ..., capsule: _Optional[_Union[_scene_pb2.Capsule, _Mapping]] = ..., position: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ..., angle: _Optional[float] = ...) -> None: ...
 
 class RayQuery(_message.Message):
     __slots__ = ["origin", "translation"]
