@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import json
 import os
 import platform
@@ -14,6 +15,7 @@ from typing import Any
 ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build" / "bench"
 PEERS = ROOT / "bench" / "peers"
+RESULTS = ROOT / "docs" / "results"
 
 
 def say(message: str) -> None:
@@ -22,6 +24,16 @@ def say(message: str) -> None:
 
 def fail(message: str) -> None:
     sys.exit(f"{Path(sys.argv[0]).name}: {message}")
+
+
+def use_python_with_matplotlib() -> None:
+    """Goes on in the project's own environment if this Python cannot draw."""
+    if importlib.util.find_spec("matplotlib") is not None:
+        return
+    own = ROOT / ".venv" / "bin" / "python"
+    if not own.exists() or Path(sys.prefix) == own.parent.parent:
+        fail("the pictures need matplotlib: scripts/setup brings it, or: pip install matplotlib")
+    os.execv(own, [str(own), *sys.argv])
 
 
 def build_step(what: str, command: list[str], log: Path, env: dict[str, str] | None = None) -> None:

@@ -122,34 +122,52 @@ class PhaseSums {
   double pairs_ = 0, collide_ = 0, constraints_ = 0, rest_ = 0;
 };
 
+// Before a step: the velocity of what moves by itself.
+void sway(const Scene& scene, const std::vector<b2BodyId>& bodies, int step) {
+  for (const Sway& each : scene.sways) {
+    b2Body_SetLinearVelocity(bodies[static_cast<std::size_t>(each.body)],
+                             {static_cast<float>(each.velocity_before(step, kTimeStep)), 0});
+  }
+}
+
 void run(const Arguments& arguments) {
   const Scene scene = read_scene(arguments.scene_path);
   const int steps = arguments.steps > 0 ? arguments.steps : scene.steps;
+  Report report;
+  report.step_ms.reserve(static_cast<std::size_t>(steps));
+  std::vector<b2BodyId> bodies;
+  bodies.reserve(scene.bodies.size());
+  const std::uint64_t heap_before = heap_bytes();
   b2WorldDef def = b2DefaultWorldDef();
   def.gravity = vec(scene.gravity);
   def.enableSleep = scene.sleep;
   def.workerCount = arguments.threads;
   const b2WorldId world = b2CreateWorld(&def);
-  std::vector<b2BodyId> bodies;
   for (const Body& body : scene.bodies) bodies.push_back(add_body(world, body));
   for (const Revolute& joint : scene.revolutes) add_revolute(world, bodies, joint);
+  report.heap_built = heap_bytes() - heap_before;
 
-  Report report;
   PhaseSums phases;
+  const auto advance = [&] { b2World_Step(world, static_cast<float>(kTimeStep), kSubSteps); };
+  for (int step = 0; step < arguments.skip; ++step) {
+    sway(scene, bodies, step);
+    advance();
+  }
+  start_counting_instructions();
   for (int step = 0; step < steps; ++step) {
-    for (const Sway& sway : scene.sways) {
-      b2Body_SetLinearVelocity(bodies[static_cast<std::size_t>(sway.body)],
-                               {static_cast<float>(sway.velocity_before(step, kTimeStep)), 0});
-    }
-    time_step(report, [&] { b2World_Step(world, static_cast<float>(kTimeStep), kSubSteps); });
+    sway(scene, bodies, arguments.skip + step);
+    time_step(report, advance);
     phases.add(b2World_GetProfile(world));
   }
+  stop_counting_instructions();
+  report.heap_stepped = heap_bytes() - heap_before;
   const b2Version version = b2GetVersion();
   report.engine = BENCH_ENGINE;
   report.version =
       std::to_string(version.major) + "." + std::to_string(version.minor) + "." + std::to_string(version.revision);
   report.scene = scene.name;
   report.threads = arguments.threads;
+  report.awake = static_cast<std::uint64_t>(b2World_GetAwakeBodyCount(world));
   report.pairs = static_cast<std::uint64_t>(b2World_GetCounters(world).contactCount);
   report.touching = count_touching(bodies);
   report.phases_ms = phases.means(steps);

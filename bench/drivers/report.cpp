@@ -1,11 +1,20 @@
 #include "report.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <numeric>
+
+#if __has_include(<valgrind/callgrind.h>)
+#include <valgrind/callgrind.h>
+#else
+#define CALLGRIND_START_INSTRUMENTATION static_cast<void>(0)
+#define CALLGRIND_STOP_INSTRUMENTATION static_cast<void>(0)
+#endif
 
 namespace bench {
 
@@ -14,6 +23,14 @@ double cpu_ms() {
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
 }
+
+std::uint64_t heap_bytes() {
+  const auto facts = mallinfo2();
+  return facts.uordblks + facts.hblkhd;
+}
+
+void start_counting_instructions() { CALLGRIND_START_INSTRUMENTATION; }
+void stop_counting_instructions() { CALLGRIND_STOP_INSTRUMENTATION; }
 
 void Report::print() const {
   std::vector<double> sorted = step_ms;
@@ -24,6 +41,10 @@ void Report::print() const {
   std::printf("\"cpu_ms\":%.6f,", cpu_ms_sum / static_cast<double>(sorted.size()));
   std::printf("\"mean_ms\":%.6f,\"median_ms\":%.6f,\"min_ms\":%.6f,\"max_ms\":%.6f,", mean, sorted[sorted.size() / 2],
               sorted.front(), sorted.back());
+  if (!simd.empty()) std::printf("\"simd\":\"%s\",", simd.c_str());
+  std::printf("\"heap_built\":%llu,\"heap_stepped\":%llu,", static_cast<unsigned long long>(heap_built),
+              static_cast<unsigned long long>(heap_stepped));
+  std::printf("\"awake\":%llu,", static_cast<unsigned long long>(awake));
   std::printf("\"bodies\":%llu,\"pairs\":%llu,\"touching\":%llu,\"hash\":\"%s\",\"phases_ms\":{",
               static_cast<unsigned long long>(bodies), static_cast<unsigned long long>(pairs),
               static_cast<unsigned long long>(touching), hash.c_str());
@@ -61,6 +82,10 @@ Arguments parse_arguments(int count, char** values) {
       arguments.threads = std::atoi(values[++i]);
     } else if (word == "--steps" && i + 1 < count) {
       arguments.steps = std::atoi(values[++i]);
+    } else if (word == "--skip" && i + 1 < count) {
+      arguments.skip = std::atoi(values[++i]);
+    } else if (word == "--simd" && i + 1 < count) {
+      arguments.simd = values[++i];
     } else if (word == "--states") {
       arguments.states = true;
     } else {
@@ -68,7 +93,8 @@ Arguments parse_arguments(int count, char** values) {
     }
   }
   if (arguments.scene_path.empty() || arguments.threads < 1) {
-    std::fprintf(stderr, "usage: %s SCENE_FILE [--threads N] [--steps N] [--states]\n", values[0]);
+    std::fprintf(stderr, "usage: %s SCENE_FILE [--threads N] [--steps N] [--skip N] [--states] [--simd NAME]\n",
+                 values[0]);
     std::exit(2);
   }
   return arguments;

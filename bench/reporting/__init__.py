@@ -1,1 +1,2 @@
-"""The report on speed against error: what is measured (plan), how (measure), what is made of it (pages, diagrams)."""
+"""What is made of measurements: the report on speed against error (plan, measure, pages, diagrams), and the pictures of
+the benchmarks (speed_diagram, scaling_diagram)."""

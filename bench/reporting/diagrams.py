@@ -81,7 +81,7 @@ def _draw_case(axes: Axes, case: Record, records: Sequence[Record]) -> None:
     axes.grid(True, which="major", alpha=0.3)
 
 
-def _save(figure: Any, path: Path) -> None:
+def save_figure(figure: Any, path: Path) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, metadata={"Date": None})
     plt.close(figure)
@@ -101,7 +101,7 @@ def draw_row(path: Path, cases: Sequence[Record], records: dict[str, list[Record
         _draw_case(axes, cases[number], records[cases[number]["case"]])
         labels |= {label: handle for handle, label in zip(*axes.get_legend_handles_labels())}
     figure.legend(labels.values(), labels.keys(), loc="outside right upper", fontsize=7)
-    _save(figure, path)
+    save_figure(figure, path)
 
 
 def fitted_order(points: Sequence[tuple[float, float]]) -> float:
@@ -134,7 +134,7 @@ def draw_order(path: Path, records: Sequence[Record], labels: dict[str, str]) ->
     axes.set_title("Kepler's orbit of eccentricity 0.3: the order of the integrators", fontsize=10)
     axes.grid(True, alpha=0.3)
     axes.legend(fontsize=8)
-    _save(figure, path)
+    save_figure(figure, path)
     return orders
 
 
@@ -152,7 +152,7 @@ def draw_rectangles(path: Path, stages: Sequence[Record], frame_ms: float) -> No
     axes.set_ylabel("processor milliseconds a step")
     axes.grid(True, which="both", alpha=0.2)
     axes.legend(fontsize=8)
-    _save(figure, path)
+    save_figure(figure, path)
 
 
 def draw_profile(path: Path, ratios: dict[str, list[float]]) -> None:
@@ -168,7 +168,7 @@ def draw_profile(path: Path, ratios: dict[str, list[float]]) -> None:
     axes.set_ylabel("share of the cases [%]")
     axes.grid(True, alpha=0.3)
     axes.legend(fontsize=8)
-    _save(figure, path)
+    save_figure(figure, path)
 
 
 def draw_whole(path: Path, points: Sequence[tuple[str, float, float]]) -> None:
@@ -184,4 +184,4 @@ def draw_whole(path: Path, points: Sequence[tuple[str, float, float]]) -> None:
     axes.set_ylabel("processor seconds a simulated second, geometric mean")
     axes.grid(True, alpha=0.3)
     axes.legend(fontsize=8)
-    _save(figure, path)
+    save_figure(figure, path)

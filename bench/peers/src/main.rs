@@ -83,8 +83,20 @@ fn cpu_ms() -> f64 {
     now.tv_sec as f64 * 1e3 + now.tv_nsec as f64 * 1e-6
 }
 
+/// Bytes in use on the heap of this program, which is the C library's.
+fn heap_bytes() -> usize {
+    // SAFETY: the call only reads the allocator's counts.
+    let facts = unsafe { libc::mallinfo2() };
+    facts.uordblks + facts.hblkhd
+}
+
+/// Bytes that the world takes: as built, and at the end.
+struct Heap {
+    built: usize,
+    stepped: usize,
+}
+
 /// What the steps took: each by the wall clock, and all together of the processor, in milliseconds.
-#[derive(Default)]
 struct Timing {
     step_ms: Vec<f64>,
     cpu_ms_sum: f64,
@@ -94,25 +106,28 @@ struct Arguments {
     scene_path: String,
     threads: usize,
     steps: Option<usize>,
+    skip: usize,
     states: bool,
     engine: String,
 }
 
 fn parse_arguments() -> Result<Arguments, String> {
-    let mut arguments = Arguments { scene_path: String::new(), threads: 1, steps: None, states: false, engine: "rapier".into() };
+    let mut arguments =
+        Arguments { scene_path: String::new(), threads: 1, steps: None, skip: 0, states: false, engine: "rapier".into() };
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
         let mut value = || words.next().ok_or(format!("{word} needs a value"));
         match word.as_str() {
             "--threads" => arguments.threads = value()?.parse().map_err(|error| format!("{error}"))?,
             "--steps" => arguments.steps = Some(value()?.parse().map_err(|error| format!("{error}"))?),
+            "--skip" => arguments.skip = value()?.parse().map_err(|error| format!("{error}"))?,
             "--states" => arguments.states = true,
             "--engine" => arguments.engine = value()?,
             _ => arguments.scene_path = word,
         }
     }
     if arguments.scene_path.is_empty() {
-        return Err("usage: peers SCENE_FILE [--threads N] [--steps N] [--states] [--engine NAME]".into());
+        return Err("usage: peers SCENE_FILE [--threads N] [--steps N] [--skip N] [--states] [--engine NAME]".into());
     }
     Ok(arguments)
 }
@@ -152,18 +167,26 @@ fn states_of(world: &PhysicsWorld, handles: &[RigidBodyHandle]) -> String {
     format!(",\"states\":[{}]", handles.iter().map(state).collect::<Vec<_>>().join(","))
 }
 
-fn print_report(arguments: &Arguments, scene: &Scene, world: &PhysicsWorld, handles: &[RigidBodyHandle], timing: &Timing) {
+fn print_report(
+    arguments: &Arguments,
+    scene: &Scene,
+    world: &PhysicsWorld,
+    handles: &[RigidBodyHandle],
+    timing: &Timing,
+    heap: &Heap,
+) {
     let ms = &timing.step_ms;
     let mut sorted = ms.clone();
     sorted.sort_by(f64::total_cmp);
     let mean = ms.iter().sum::<f64>() / ms.len() as f64;
     let bodies = scene.bodies.iter().filter(|body| body.kind == BodyKind::Dynamic).count();
+    let awake = world.bodies.iter().filter(|(_, body)| !body.is_fixed() && !body.is_sleeping()).count();
     let pairs = world.narrow_phase.contact_pairs().count();
     let states = if arguments.states { states_of(world, handles) } else { String::new() };
     let touching = world.narrow_phase.contact_pairs().filter(|pair| pair.has_any_active_contact()).count();
     println!(
         "{{\"engine\":\"{}\",\"version\":\"{}\",\"scene\":\"{}\",\"threads\":{},\"steps\":{},\"cpu_ms\":{:.6},\"mean_ms\":{:.6},\
-         \"median_ms\":{:.6},\"min_ms\":{:.6},\"max_ms\":{:.6},\"bodies\":{bodies},\"pairs\":{pairs},\
+         \"median_ms\":{:.6},\"min_ms\":{:.6},\"max_ms\":{:.6},\"heap_built\":{},\"heap_stepped\":{},\"awake\":{awake},\"bodies\":{bodies},\"pairs\":{pairs},\
          \"touching\":{touching},\"hash\":\"{:016x}\",\"phases_ms\":{{}}{states}}}",
         arguments.engine,
         rapier2d::VERSION,
@@ -175,6 +198,8 @@ fn print_report(arguments: &Arguments, scene: &Scene, world: &PhysicsWorld, hand
         sorted[ms.len() / 2],
         sorted[0],
         sorted[ms.len() - 1],
+        heap.built,
+        heap.stepped,
         hash_of(world, handles),
     );
 }
@@ -184,16 +209,20 @@ fn run() -> Result<(), String> {
     let text = std::fs::read_to_string(&arguments.scene_path)
         .map_err(|error| format!("{}: {error}", arguments.scene_path))?;
     let scene = Scene::read(&text)?;
+    let steps = arguments.steps.unwrap_or(scene.steps);
+    let mut timing = Timing { step_ms: Vec::with_capacity(steps), cpu_ms_sum: 0.0 };
+    let mut handles = Vec::with_capacity(scene.bodies.len());
+    let heap_before = heap_bytes();
     let mut world = PhysicsWorld::new();
     set_threads(&mut world, arguments.threads)?;
     world.gravity = vector(&scene.gravity);
     world.integration_parameters.dt = TIME_STEP as f32;
-    let handles: Vec<_> = scene.bodies.iter().map(|body| add_body(&mut world, body, scene.sleep)).collect();
+    handles.extend(scene.bodies.iter().map(|body| add_body(&mut world, body, scene.sleep)));
     for joint in &scene.revolutes {
         add_revolute(&mut world, &handles, joint);
     }
-    let mut timing = Timing::default();
-    for step in 0..arguments.steps.unwrap_or(scene.steps) {
+    let built = heap_bytes() - heap_before;
+    for step in 0..arguments.skip + steps {
         for sway in &scene.sways {
             let velocity = Vector::new(sway.velocity_before(step, TIME_STEP), 0.0);
             world.bodies[handles[sway.body]].set_linvel(velocity, true);
@@ -201,10 +230,13 @@ fn run() -> Result<(), String> {
         let cpu_start = cpu_ms();
         let start = Instant::now();
         world.step();
-        timing.step_ms.push(start.elapsed().as_secs_f64() * 1e3);
-        timing.cpu_ms_sum += cpu_ms() - cpu_start;
+        if step >= arguments.skip {
+            timing.step_ms.push(start.elapsed().as_secs_f64() * 1e3);
+            timing.cpu_ms_sum += cpu_ms() - cpu_start;
+        }
     }
-    print_report(&arguments, &scene, &world, &handles, &timing);
+    let heap = Heap { built, stepped: heap_bytes() - heap_before };
+    print_report(&arguments, &scene, &world, &handles, &timing, &heap);
     Ok(())
 }
 
