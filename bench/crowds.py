@@ -58,8 +58,8 @@ STACK = 10  # boxes in each of the sleepers' stacks
 
 
 def sleepers(awake: int, asleep: int, steps: int = 300) -> Scene:
-    """A turning drum in which so many boxes never rest, and so many in stacks on a floor beside it, which fall asleep
-    within two seconds. The drum's bodies come first, so that they are the same with and without the stacks."""
+    """A turning drum in which so many boxes never rest, and so many in stacks on a floor beside it, asleep from the
+    start. The drum's bodies come first, so that they move in the same way with and without the stacks."""
     scene = Scene(f"sleepers_{awake}_{asleep}", steps)
     columns = math.ceil(math.sqrt(awake))
     pitch = SIDE * 1.1
@@ -76,9 +76,9 @@ def sleepers(awake: int, asleep: int, steps: int = 300) -> Scene:
         floor_from = 4 * half
         width = asleep / STACK * 2 * SIDE
         scene.body("static", (floor_from + width / 2, -WALL))
-        scene.box((width, WALL))
+        scene.box((width / 2 + WALL, WALL))
         for number in range(asleep):
             stack, row = divmod(number, STACK)
-            scene.body("dynamic", (floor_from + stack * 2 * SIDE, (row + 0.5) * SIDE))
+            scene.body("dynamic", (floor_from + stack * 2 * SIDE, (row + 0.5) * SIDE), awake=False)
             scene.box((SIDE / 2, SIDE / 2))
     return scene

@@ -10,6 +10,8 @@ import bars
 Result = dict[str, Any]
 Row = dict[str, Any]
 
+BUSY_LOAD = 2.2  # two threads of the benchmark, and a little
+
 
 def _engines(rows: Sequence[Row], threads: int) -> list[str]:
     return list(dict.fromkeys(row["engine"] for row in rows if row["threads"] == threads))
@@ -124,7 +126,9 @@ def verdict_lines(result: Result) -> list[str]:
 def about(result: Result) -> list[str]:
     """Where and when the figures were taken."""
     machine = result["machine"]
-    return [
+    busy = max(machine["load at start"], machine["load at end"]) > BUSY_LOAD
+    warning = "**The machine was busy with other things: figures of several threads say nothing.**"
+    return ([warning, ""] if busy else []) + [
         f"Made by `{result['command']}`, {result['started']}, in {result['minutes']:.0f} minutes, at commit "
         f"{machine['commit']}{' with changes' if machine['uncommitted changes'] else ''}. {machine['processor']}, "
         f"{machine['processors']} processors, {', '.join(machine['simd']) or 'no x86 SIMD'}; {machine['system']}; "

@@ -5,6 +5,7 @@
 
 #include "physics/body_factory.h"
 #include "physics/bounds.h"
+#include "physics/contact_counts.h"
 #include "physics/contact_graph.h"
 #include "physics/contacts.h"
 #include "physics/continuous.h"
@@ -324,25 +325,31 @@ Status WorldOf<S>::set_awake(BodyId id, bool awake) {
 
 template <class S>
 void WorldOf<S>::capture(BodyColumns& out, bool include_static) const {
-  out.id.clear();
-  out.awake.clear();
   std::vector<double>* const columns[] = {&out.x,          &out.y,          &out.angle,
                                           &out.velocity_x, &out.velocity_y, &out.angular_velocity};
-  for (std::vector<double>* column : columns) column->clear();
+  const auto resize = [&](std::size_t count) {
+    out.id.resize(count);
+    out.awake.resize(count);
+    for (std::vector<double>* column : columns) column->resize(count);
+  };
+  resize(data_.needs.bodies);
+  std::size_t count = 0;
   for (std::uint32_t slot = 0; slot < data_.bodies.size(); ++slot) {
     const Body<S>& b = data_.bodies[slot];
     if (!b.alive() || (b.body_type() == BodyType::kStatic && !include_static)) continue;
     const Motion<S>& m = data_.motions[slot];
     const Vec<S> origin = b.origin();
-    out.id.push_back(id_of(data_, slot));
-    out.x.push_back(double(origin.x()));
-    out.y.push_back(double(origin.y()));
-    out.angle.push_back(double(b.angle));
-    out.velocity_x.push_back(double(m.vx));
-    out.velocity_y.push_back(double(m.vy));
-    out.angular_velocity.push_back(double(m.w));
-    out.awake.push_back(b.awake());
+    out.id[count] = id_of(data_, slot);
+    out.x[count] = double(origin.x());
+    out.y[count] = double(origin.y());
+    out.angle[count] = double(b.angle);
+    out.velocity_x[count] = double(m.vx);
+    out.velocity_y[count] = double(m.vy);
+    out.angular_velocity[count] = double(m.w);
+    out.awake[count] = b.awake();
+    ++count;
   }
+  resize(count);
   sort_by_id(out);
 }
 
@@ -363,15 +370,7 @@ Counters WorldOf<S>::counters() const {
   out.awake_bodies = static_cast<std::uint32_t>(data_.awake.size());
   out.shapes = data_.needs.shapes;
   out.joints = data_.needs.joints;
-  out.pairs = static_cast<std::uint32_t>(data_.contacts.size() - data_.free_contacts.size());
-  for (std::uint32_t slot = 0; slot < data_.contacts.size(); ++slot) {
-    if (!data_.contacts[slot].alive()) continue;
-    const Contact<S> c = settled(data_, slot);
-    out.contacts += c.touching();
-    if (c.sensor()) continue;
-    for (std::uint32_t i = 0; i < c.count; ++i)
-      out.penetration_max = max_of(out.penetration_max, -double(c.points[i].separation));
-  }
+  count_contacts(data_, out);
   return out;
 }
 
