@@ -10,6 +10,7 @@ from scenes import Scene
 SEED = 7
 SIDE = 0.5  # of a box and across a disc, m
 GAP = 0.05  # between boxes of a pile before it falls, of their side
+ROWS_MAX = 25  # of a pile
 WALL = 1.0  # half the thickness, m
 
 
@@ -24,17 +25,19 @@ def _walls(scene: Scene, half_width: float, height: float, *, closed: bool = Fal
 
 
 def pile(count: int, steps: int = 600) -> Scene:
-    """Boxes in a bin, twice as wide as they lie high, shifted a little so that none lies quite on one below. They come
-    to rest within two seconds; none may sleep."""
+    """Boxes in a bin, laid like bricks with small gaps, so that each comes to lie on two. They are at most ROWS_MAX high,
+    or the ones below would be pressed together and a body of a large pile would touch more than one of a small pile.
+    They come to rest within two seconds; none may sleep."""
     scene = Scene(f"pile_{count}", steps, sleep=False)
     chance = random.Random(SEED)
-    columns = math.ceil(math.sqrt(2 * count))
+    rows = min(ROWS_MAX, math.ceil(math.sqrt(count / 2)))
+    columns = math.ceil(count / rows)
     pitch = SIDE * (1 + GAP)
-    half_width = 0.5 * pitch * (columns + 1)
-    _walls(scene, half_width, pitch * (math.ceil(count / columns) + 2))
+    half_width = 0.5 * pitch * (columns + 0.6)
+    _walls(scene, half_width, pitch * (rows + 2))
     for number in range(count):
         row, column = divmod(number, columns)
-        shift = chance.uniform(-0.4, 0.4) * GAP * SIDE
+        shift = (0.25 if row % 2 else -0.25) * pitch + chance.uniform(-0.4, 0.4) * GAP * SIDE
         scene.body("dynamic", ((column - 0.5 * (columns - 1)) * pitch + shift, (row + 0.6) * pitch))
         scene.box((SIDE / 2, SIDE / 2))
     return scene

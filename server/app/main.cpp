@@ -10,6 +10,7 @@
 #include "app/endpoint.h"
 #include "app/load_scene.h"
 #include "app/options.h"
+#include "app/scene_cost.h"
 #include "app/server.h"
 #include "app/server_threads.h"
 #include "transport/zenoh/zenoh_transport.h"
@@ -24,7 +25,7 @@ WorldFactory world_factory(unsigned threads) {
 RoomSettings room_settings(const Options& options) {
   RoomSettings settings;
   settings.roles = {options.control, {options.owners.begin(), options.owners.end()}};
-  settings.paused = options.paused;
+  settings.paused = options.paused && !options.explain_only;  // what is explained is stepped
   settings.time_scale = options.time_scale;
   settings.publish_hash = options.publish_hash;
   settings.snapshot_rate_hz = options.snapshot_rate_hz;
@@ -132,6 +133,7 @@ int run(int argc, char** argv) {
   }
   if (options->explain_only) {
     std::fputs(explain(**room).c_str(), stdout);
+    std::fputs(cost_text(measure_cost(**room), options->threads).c_str(), stdout);
     return 0;
   }
   if (options->check_only) {

@@ -68,7 +68,9 @@ void declare(CLI::App& app, Options& options) {
       ->capture_default_str()
       ->check(CLI::Range(1u, kThreadsMax));
   app.add_flag("--check", options.check_only, "Check the scene and exit");
-  app.add_flag("--explain", options.explain_only, "Print what of the engine the scene needs and why, and exit");
+  app.add_flag("--explain", options.explain_only,
+               "Print what of the engine the scene needs and why, and what each part of a step costs on this machine, "
+               "and exit");
   app.add_option("--log-level", options.log_level, "How much is said on stderr")
       ->type_name("trace|debug|info|warn|error|off")
       ->capture_default_str()
