@@ -22,6 +22,15 @@ struct EventWriter {
       end->set_sensor(event.sensor);
       return;
     }
+    if (event.kind == ContactEvent::Kind::kHit) {
+      auto* hit = out->mutable_contact_hit();
+      hit->set_body_a(event.body_a);
+      hit->set_body_b(event.body_b);
+      write_vector(event.point, hit->mutable_point());
+      write_vector(event.normal, hit->mutable_normal());
+      hit->set_approach_speed(event.approach_speed);
+      return;
+    }
     auto* begin = out->mutable_contact_begin();
     begin->set_body_a(event.body_a);
     begin->set_body_b(event.body_b);

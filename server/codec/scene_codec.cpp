@@ -137,6 +137,10 @@ WorldSettings settings_from_proto(const v1::WorldSettings& message) {
   settings.friction_mixing = enum_from_proto(message.friction_mixing(), settings.friction_mixing);
   settings.restitution_mixing = enum_from_proto(message.restitution_mixing(), settings.restitution_mixing);
   if (message.has_restitution_threshold()) settings.restitution_threshold = message.restitution_threshold();
+  if (message.has_hit_events()) {
+    settings.hit_events.emplace();
+    if (message.hit_events().has_speed_min()) settings.hit_events->speed_min = message.hit_events().speed_min();
+  }
   return settings;
 }
 
@@ -154,6 +158,7 @@ void write_settings(const WorldSettings& settings, v1::WorldSettings* out) {
   out->set_friction_mixing(enum_to_proto<v1::Mixing>(settings.friction_mixing));
   out->set_restitution_mixing(enum_to_proto<v1::Mixing>(settings.restitution_mixing));
   out->set_restitution_threshold(settings.restitution_threshold);
+  if (settings.hit_events) out->mutable_hit_events()->set_speed_min(settings.hit_events->speed_min);
 }
 
 struct GeometryWriter {

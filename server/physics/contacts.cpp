@@ -177,6 +177,7 @@ void release_parted(WorldData<S>& world, std::uint32_t slot) {
   c.count = 0;
   c.nx = c.ny = S(0);
   c.points[0] = c.points[1] = ManifoldPoint<S>{};
+  c.flags &= ~kContactStruck;
   if (!c.touching()) return;
   c.flags ^= kContactTouching;
   world.events.push_back(end_event(world, c));
@@ -285,7 +286,7 @@ class Lookout {
       return;  // it looks for itself, in every sub-iteration
     update_manifold(world_, c);
     if (c.count == 0) return;
-    if (!c.touching()) c.approach = approach_speed(world_, c);
+    if (!c.touching() || world_.settings.hit_events) c.approach = approach_speed(world_, c);
     if (!c.sensor()) world_.scratch.findings[index] = kMet;
   }
 

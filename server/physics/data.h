@@ -124,7 +124,7 @@ struct WorldData {
   }
 
   // Arrays of features that few worlds have. One that is empty leaves no trace in the saved state; a number that is
-  // never used again tells them apart.
+  // never used again tells them apart; 4 is that of a setting (state.cpp).
   template <class Self, class Visitor>
   static void for_each_optional_field(Self& self, Visitor&& visit) {
     visit(1u, "joints", self.joints);

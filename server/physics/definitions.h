@@ -136,6 +136,13 @@ struct Spring {
 
 using ForceField = std::variant<PointAttractor, Drag, Spring>;
 
+inline constexpr double kHitSpeedDefault = 1.0;  // m/s
+
+// Asks for an event for each contact that is struck. The thesis's solver cannot tell.
+struct HitEvents {
+  double speed_min = kHitSpeedDefault;  // m/s ≥ 0: slower ones make no event
+};
+
 struct WorldSettings {
   Precision precision = Precision::kFloat;
   Vec2 gravity{0, -9.81};         // m/s²
@@ -151,6 +158,7 @@ struct WorldSettings {
   Mixing restitution_mixing = Mixing::kMaximum;
   double restitution_threshold = 0.5;  // m/s ≥ 0
   std::vector<ForceField> fields;
+  std::optional<HitEvents> hit_events;  // absent: none
 };
 
 }  // namespace urto

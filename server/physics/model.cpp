@@ -111,6 +111,8 @@ std::vector<Feature> explain_model(const WorldSettings& settings, const Needs& n
                  count_of(static_cast<std::uint32_t>(settings.fields.size()), "fields besides gravity")});
   out.push_back({"joints", model.joints ? "on" : "off", model.joints, count_of(needs.joints, "joints")});
   out.push_back({"sensors", needs.sensors > 0 ? "on" : "off", needs.sensors > 0, count_of(needs.sensors, "sensors")});
+  out.push_back({"hit events", settings.hit_events ? "on" : "off", settings.hit_events.has_value(),
+                 settings.hit_events ? "the scene asks for them" : "the scene does not ask for them"});
   out.push_back({"sleeping", model.sleeping ? "on" : "off", model.sleeping,
                  thesis              ? "the thesis's solver has no rest"
                  : settings.sleeping ? "the default"

@@ -114,6 +114,23 @@ void plain_settings(Archive& ar, Settings& s) {
   ar.value(s.restitution_threshold);
 }
 
+// Of a setting that few worlds have: absent, it leaves no trace, as for_each_optional_field says.
+constexpr std::uint32_t kHitEventsField = 4;
+
+void write_hit_events(Writer& out, const WorldSettings& s) {
+  if (!s.hit_events) return;
+  out.value(kHitEventsField);
+  out.value(s.hit_events->speed_min);
+}
+
+void read_hit_events(Reader& in, WorldSettings& s) {
+  if (!in.next_is(kHitEventsField)) return;
+  std::uint32_t ignored = 0;
+  in.value(ignored);
+  s.hit_events.emplace();
+  in.value(s.hit_events->speed_min);
+}
+
 template <class Archive>
 void enum_settings(Archive& ar, WorldSettings& s) {
   enum_value(ar, s.precision);
@@ -234,6 +251,7 @@ std::vector<std::byte> save_state(const WorldData<S>& world) {
     out.value(number);
     out.array(field);
   });
+  write_hit_events(out, world.settings);
   return out.finish(sizeof(S));
 }
 
@@ -258,6 +276,7 @@ Status restore_state(WorldData<S>& world, std::span<const std::byte> block) {
     in.value(ignored);
     in.array(field);
   });
+  read_hit_events(in, fresh.settings);
   if (!in.complete()) return corrupt("payload", "the state does not hold what its version should");
   fresh.team = world.team;
   rebuild(fresh, lanes);

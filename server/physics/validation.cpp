@@ -295,6 +295,9 @@ Status check_settings(const WorldSettings& s) {
       .range("restitution_threshold", s.restitution_threshold, 0, kSpeedMax)
       .require(s.solver != SolverKind::kPrecise || s.precision == Precision::kDouble, ErrorCode::kInvalidValue,
                "solver", "precise", "the precise solver needs double precision")
+      .require(s.solver != SolverKind::kThesis || !s.hit_events, ErrorCode::kNotSupported, "hit_events", "thesis",
+               "the thesis's solver cannot tell hits")
+      .range("hit_events.speed_min", s.hit_events ? s.hit_events->speed_min : 0, 0, kSpeedMax)
       .require(s.fields.size() <= kForceFieldsMax, ErrorCode::kLimitReached, "fields", std::to_string(s.fields.size()),
                "too many force fields");
   for (std::size_t i = 0; i < s.fields.size(); ++i)

@@ -9,6 +9,7 @@
 #include "physics/contact_graph.h"
 #include "physics/contacts.h"
 #include "physics/continuous.h"
+#include "physics/hits.h"
 #include "physics/joint_graph.h"
 #include "physics/joint_state.h"
 #include "physics/motion.h"
@@ -109,6 +110,7 @@ void WorldOf<S>::step() {
   run(Phase::kUpdateSleep, [&] {
     finish_motions();
     report_contact_events(data_);
+    if (data_.settings.hit_events) report_hits(data_);
     if (data_.model.joints) break_joints(data_);
     if (data_.model.sleeping) update_sleep(data_);
   });

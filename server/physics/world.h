@@ -54,12 +54,12 @@ struct ContactPoint {
 };
 
 struct ContactEvent {
-  enum class Kind : std::uint8_t { kBegin, kEnd };
+  enum class Kind : std::uint8_t { kBegin, kEnd, kHit };
   Kind kind = Kind::kBegin;
   BodyId body_a = 0, body_b = 0;
-  Vec2 point{0, 0};           // m, world frame (begin)
-  Vec2 normal{0, 0};          // unit, from a to b (begin)
-  double approach_speed = 0;  // m/s ≥ 0 (begin)
+  Vec2 point{0, 0};           // m, world frame (begin and hit)
+  Vec2 normal{0, 0};          // unit, from a to b (begin and hit)
+  double approach_speed = 0;  // m/s ≥ 0 (begin and hit)
   bool sensor = false;
 };
 

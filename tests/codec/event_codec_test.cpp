@@ -39,6 +39,13 @@ TEST(EventCodec, Contacts) {
   EXPECT_EQ(begin.normal().y(), 1);
   EXPECT_EQ(begin.approach_speed(), 5);
   EXPECT_TRUE(begin.sensor());
+  contact.kind = ContactEvent::Kind::kHit;
+  const auto hit = encoded(contact).contact_hit();
+  EXPECT_EQ(hit.body_a(), 1u);
+  EXPECT_EQ(hit.body_b(), 2u);
+  EXPECT_EQ(hit.point().y(), 4);
+  EXPECT_EQ(hit.normal().y(), 1);
+  EXPECT_EQ(hit.approach_speed(), 5);
   contact.kind = ContactEvent::Kind::kEnd;
   EXPECT_EQ(encoded(contact).contact_end().body_b(), 2u);
 }

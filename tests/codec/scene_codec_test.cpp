@@ -17,7 +17,7 @@ world {
   precision: PRECISION_DOUBLE gravity { x: 1 y: 2 } time_step: 0.01 sub_steps: 7 solver: SOLVER_PRECISE
   integrator: INTEGRATOR_RUNGE_KUTTA_4 broad_phase: BROAD_PHASE_BVH narrow_phase: NARROW_PHASE_GJK
   sleeping: false continuous: false friction_mixing: MIXING_MINIMUM restitution_mixing: MIXING_AVERAGE
-  restitution_threshold: 3
+  restitution_threshold: 3 hit_events { speed_min: 4 }
 }
 bodies {
   name: "b" tags: "t1" tags: "t2" type: BODY_TYPE_KINEMATIC position { x: 1 y: 2 } angle: 3
@@ -67,6 +67,9 @@ TEST(SceneCodec, AbsentFieldsTakeTheEnginesDefaults) {
   EXPECT_EQ(scene.world.restitution_mixing, Mixing::kMaximum);
   EXPECT_TRUE(scene.world.sleeping);
   EXPECT_TRUE(scene.world.continuous);
+  EXPECT_FALSE(scene.world.hit_events);
+  const SceneDef asking = scene_from_proto(from_text<v1::Scene>("world { hit_events {} }"));
+  EXPECT_EQ(asking.world.hit_events->speed_min, kHitSpeedDefault);
   EXPECT_FALSE(scene.view);
   const BodySpec& body = scene.bodies.at(0);
   EXPECT_EQ(body.def.type, BodyType::kDynamic);

@@ -576,6 +576,25 @@ TEST(Room, QueriesSeeTheWorldAsItIsAtTheirTurn) {
   EXPECT_EQ(reply.results[7].query->diagnostics->state_hash, driver.room->world().state_hash());
 }
 
+TEST(Room, HitsAreEventsOfScenesThatAskForThem) {
+  for (const bool asked : {false, true}) {
+    SceneDef scene = floating_scene();
+    scene.world.gravity = {0, -10};
+    if (asked) scene.world.hit_events = HitEvents{2};
+    RoomDriver driver({}, scene);
+    const BodyId crate = driver.ask({Spawn{box_body("crate", {20, 2.5})}}).results[0].id;
+    for (int i = 0; i < 60; ++i) driver.tick();
+    std::vector<ContactEvent> hits;
+    for (const ContactEvent& event : driver.events_of<ContactEvent>())
+      if (event.kind == ContactEvent::Kind::kHit && (event.body_a == crate || event.body_b == crate))
+        hits.push_back(event);
+    ASSERT_THAT(hits, SizeIs(asked ? 1 : 0));
+    if (asked) {
+      EXPECT_NEAR(hits[0].approach_speed, std::sqrt(2 * 10 * 2.0), 0.3);
+    }
+  }
+}
+
 TEST(Room, QueriesWithAShapeAreAnsweredInOrder) {
   RoomDriver driver(paused_settings());
   QueryOptions one;

@@ -274,7 +274,9 @@ def dominoes(count: int = 30) -> Message:
         bodies.append(body(box(0.14, 1.1, density=5.0, friction=0.5), x, 0.55, name=f"domino_{index + 1}", color=color))
     start = -(count - 1) / 2 * pitch
     bodies.append(body(circle(0.18, density=20.0), start - 0.8, 0.95, name="ball", velocity=(4, 0), color=CREAM))
-    return scene("dominoes", f"{count} dominoes; a thrown ball pushes the first.", (-12.5, -1.5, 12.5, 8), bodies)
+    world: Message = {"hit_events": {"speed_min": 1.0}}
+    description = f"{count} dominoes; a thrown ball pushes the first. Each blow above 1 m/s is an event."
+    return scene("dominoes", description, (-12.5, -1.5, 12.5, 8), bodies, world)
 
 
 def cradle() -> Message:

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import urto
-from urto._proto.v1 import snapshot_pb2
+from urto._proto.v1 import scene_pb2, snapshot_pb2
 from support.fake_room import EVENTS_KEPT, GRAVITY_Y, TIME_STEP, FakeRoom
 
 
@@ -297,6 +297,16 @@ def test_questions(room: urto.Room) -> None:
         1, "ball", (1, 2), ("a", "b"), 0x102030,
     )  # fmt: skip
     assert room.state(saved_state=True).saved_state == b"saved"
+
+
+def test_a_hit_is_an_event(room: urto.Room, fake: FakeRoom) -> None:
+    vector = scene_pb2.Vector
+    hit = snapshot_pb2.ContactHit(body_a=1, body_b=2, point=vector(x=3, y=4), normal=vector(y=-1), approach_speed=5)
+    sequence = fake.emit(contact_hit=hit)
+    event = next(event for event in room.events(timeout=10) if isinstance(event, urto.ContactHit))
+    assert event == urto.ContactHit(
+        sequence=sequence, tick=0, body_a=1, body_b=2, point=(3, 4), normal=(0, -1), approach_speed=5
+    )
 
 
 def test_queries_with_a_shape(room: urto.Room, fake: FakeRoom) -> None:

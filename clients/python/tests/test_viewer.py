@@ -16,8 +16,10 @@ Image = pytest.importorskip("PIL.Image")
 
 import urto
 from support.fake_room import GRAVITY_Y, TIME_STEP, FakeRoom, Running
+from urto._proto.v1 import scene_pb2, snapshot_pb2
 from urto._viewer import outputs
-from urto._viewer.palette import BACKGROUND, STATIC
+from urto._viewer.hits import HIT_SIZE, HIT_SIZE_MAX, HIT_TICKS
+from urto._viewer.palette import BACKGROUND, HIT, STATIC
 from urto._viewer.shapes import ShapeSet
 from urto._viewer.triangulate import signed_area, triangulate
 from urto._viewer.view import ViewOptions, _Outputs, _View, view
@@ -118,6 +120,35 @@ def test_what_is_despawned_is_gone_from_the_next_layout(room: urto.Room, tmp_pat
         counts = [(tick, len(value)) for tick, value in values]
         assert counts[0][1] > 0
         assert counts[-1] == (5, 0), entity
+
+
+def test_hits_are_discs_by_their_speed_for_a_while(room: urto.Room, fake: FakeRoom, tmp_path: Path) -> None:
+    room.spawn(urto.Box(width=20, height=10, type="static", color=0))
+    options = ViewOptions(save=tmp_path)
+    shown = _View(room, options, _Outputs(options, print))
+    shown.begin()
+    shown.show(room.step(1))
+    vector = scene_pb2.Vector
+    for x, speed in ((0.0, 2.0), (3.0, 8.0), (-3.0, 1e6)):
+        hit = snapshot_pb2.ContactHit(
+            body_a=1, body_b=2, point=vector(x=x, y=1), normal=vector(y=1), approach_speed=speed
+        )
+        fake.emit(contact_hit=hit)
+    while len(shown._hits) < 3:
+        shown.show_events()
+    shown.draw(tmp_path / "room.png")
+    width = shown._log._right - shown._log._left
+    assert shown._hits.points.tolist() == [[0, 1], [3, 1], [-3, 1]]
+    expected = [width * HIT_SIZE * 2, width * HIT_SIZE * 8, width * HIT_SIZE_MAX]
+    assert shown._hits.radii(width).tolist() == pytest.approx(expected)
+    shown.show(room.step(HIT_TICKS))
+    assert len(shown._hits) == 0
+    shown.end_recording()
+    discs = _values(tmp_path / "room.rrd", "/room/camera/hits", "Points2D:radii")
+    assert discs[-2][1] == pytest.approx(expected, rel=1e-6)
+    assert discs[-1][1] == []
+    picture = Image.open(tmp_path / "room.png")
+    assert HIT in {color for _, color in picture.getcolors(maxcolors=picture.width * picture.height)}
 
 
 def test_round_shapes_and_chains_are_drawn(room: urto.Room, tmp_path: Path) -> None:

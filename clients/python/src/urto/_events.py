@@ -30,6 +30,27 @@ class ContactBegin(EventBase):
 
 
 @dataclass(frozen=True, kw_only=True)
+class ContactHit(EventBase):
+    """Two bodies struck each other; only in scenes that ask for it (`WorldSettings.hit_events`).
+
+    A blow that is spread over ticks that follow each other is one hit; after a bounce the next is another.
+
+    Attributes:
+        body_a: id.
+        body_b: id.
+        point: m, world frame, where they closed in fastest.
+        normal: unit, from a to b.
+        approach_speed: m/s along the normal, at the start of the tick; above the scene's `speed_min`.
+    """
+
+    body_a: int
+    body_b: int
+    point: Vector
+    normal: Vector
+    approach_speed: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class ContactEnd(EventBase):
     """Two bodies no longer touch."""
 
@@ -157,9 +178,9 @@ class UnknownEvent(EventBase):
 
 
 Event: TypeAlias = (
-    ContactBegin | ContactEnd | BodyAdded | BodyRemoved | MemberJoined | MemberLeft | RoomPaused | RoomResumed
-    | RoomReset | TimeScaleChanged | BatchRejected | EventsDropped | JointAdded | JointRemoved | JointBroke
-    | UnknownEvent
+    ContactBegin | ContactHit | ContactEnd | BodyAdded | BodyRemoved | MemberJoined | MemberLeft | RoomPaused
+    | RoomResumed | RoomReset | TimeScaleChanged | BatchRejected | EventsDropped | JointAdded | JointRemoved
+    | JointBroke | UnknownEvent
 )  # fmt: skip
 """Any event of a room."""
 
@@ -174,6 +195,13 @@ def event_from_proto(sequence: int, message: snapshot_pb2.Event) -> Event:  # no
                 sequence=sequence, tick=tick, body_a=begin.body_a, body_b=begin.body_b,
                 point=vector_from_proto(begin.point), normal=vector_from_proto(begin.normal),
                 approach_speed=begin.approach_speed, sensor=begin.sensor,
+            )  # fmt: skip
+        case "contact_hit":
+            hit = message.contact_hit
+            return ContactHit(
+                sequence=sequence, tick=tick, body_a=hit.body_a, body_b=hit.body_b,
+                point=vector_from_proto(hit.point), normal=vector_from_proto(hit.normal),
+                approach_speed=hit.approach_speed,
             )  # fmt: skip
         case "contact_end":
             end = message.contact_end

@@ -9,7 +9,8 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from urto._frame import Contacts
-from urto._viewer.palette import BACKGROUND, CONTACT, GRID, JOINT, TEXT, VELOCITY, Color, darker
+from urto._viewer.hits import RecentHits
+from urto._viewer.palette import BACKGROUND, CONTACT, GRID, HIT, JOINT, TEXT, VELOCITY, Color, darker
 from urto._viewer.shapes import LAYERS, Layer, ShapeSet, with_margin
 
 SUPERSAMPLING = 3
@@ -88,6 +89,7 @@ def draw_picture(
     caption: str = "",
     velocities: bool = False,
     contacts: Contacts | None = None,
+    hits: RecentHits | None = None,
 ) -> None:
     """Writes a PNG of the shapes where their poses are.
 
@@ -98,6 +100,7 @@ def draw_picture(
         caption: a line at the lower left.
         velocities: draw an arrow on every moving body.
         contacts: draw their points and normals.
+        hits: draw a disc for each, by its speed.
     """
     canvas = _Canvas(bounds or with_margin(shapes.bounds()))
     step = canvas.grid()
@@ -113,6 +116,11 @@ def draw_picture(
             tip = center_x + normal[0] * 5 * r, center_y - normal[1] * 5 * r
             canvas.draw.line([(center_x, center_y), tip], fill=CONTACT, width=SUPERSAMPLING)
             canvas.draw.ellipse((center_x - r, center_y - r, center_x + r, center_y + r), fill=CONTACT)
+    if hits is not None:
+        for (x, y), radius in zip(hits.points.tolist(), hits.radii(canvas.width / canvas.scale).tolist(), strict=True):
+            center_x, center_y = canvas.px(x, y)
+            r = radius * canvas.scale
+            canvas.draw.ellipse((center_x - r, center_y - r, center_x + r, center_y + r), fill=HIT)
     text = f"{caption} · " if caption else ""
     margin = 12 * SUPERSAMPLING
     canvas.draw.text(

@@ -4,7 +4,7 @@ A room is flat, and Rerun's plain 2D boxes cannot rotate; so the shapes are logg
 of a kind, and looked at through a pinhole camera far away: focal length 1000 at 1000 m, so that one pixel is one metre.
 Overlays are 2D, in pixels of that camera: x − left, top − y.
 
-    room/camera            the pinhole; below it the overlays velocities, contacts, normals
+    room/camera            the pinhole; below it the overlays velocities, contacts, normals, hits
     room/<layer>/boxes     layer: static, bodies, sensors
     room/<layer>/edges     the outlines of the boxes
     room/<layer>/discs
@@ -24,10 +24,11 @@ import rerun as rr
 import rerun.blueprint as rrb
 
 from urto._describe import describe
-from urto._events import ContactBegin, ContactEnd, Event, EventsDropped
+from urto._events import ContactBegin, ContactEnd, ContactHit, Event, EventsDropped
 from urto._frame import Contacts, Frame
 from urto._info import RoomInfo
-from urto._viewer.palette import BACKGROUND, CONTACT, JOINT, VELOCITY, darker
+from urto._viewer.hits import RecentHits
+from urto._viewer.palette import BACKGROUND, CONTACT, HIT, JOINT, VELOCITY, darker
 from urto._viewer.shapes import LAYERS, Layer, ShapeSet
 
 CAMERA = "room/camera"
@@ -85,6 +86,7 @@ class RerunLog:
         self._velocities = velocities
         self._contacts = contacts
         self._had_joints = False  # what has been logged once has to be cleared
+        self._had_hits = False
         self._log_camera()
         for plot, lines in _PLOTS.items():
             for name, label, color in lines:
@@ -193,6 +195,18 @@ class RerunLog:
             ),
         )  # fmt: skip
 
+    def log_hits(self, hits: RecentHits) -> None:
+        """A disc for each, for a while."""
+        if not len(hits) and not self._had_hits:
+            return
+        self._had_hits = len(hits) > 0
+        self._stream.log(
+            f"{CAMERA}/hits",
+            rr.Points2D(
+                self._to_pixels(hits.points), colors=[HIT], radii=hits.radii(self._right - self._left), draw_order=60
+            ),
+        )
+
     def log_plots(self, frame: Frame) -> None:
         held = frame.statistics
         total = held.kinetic_energy + held.potential_energy
@@ -212,7 +226,7 @@ class RerunLog:
         lines = 0
         left_out = 0
         for event in events:
-            if isinstance(event, ContactBegin | ContactEnd):
+            if isinstance(event, ContactBegin | ContactEnd | ContactHit):
                 if not self._contacts:
                     continue
                 if lines == CONTACT_EVENTS_MAX:

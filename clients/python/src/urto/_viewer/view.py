@@ -17,6 +17,7 @@ from urto._exceptions import EventGap, InvalidArgument, RequestTimeout
 from urto._frame import Contacts, Frame
 from urto._room import Room
 from urto._viewer.drawing import draw_picture
+from urto._viewer.hits import RecentHits
 from urto._viewer.outputs import ViewerError, ViewerProcess, check_listening, open_web, open_window
 from urto._viewer.rerun_log import RerunLog
 from urto._viewer.screenshot import take_screenshot
@@ -157,6 +158,7 @@ class _View:
         self._layout: int | None = None
         self._bounds: tuple[float, float, float, float] | None = None
         self._contacts: Contacts | None = None
+        self._hits = RecentHits()
         self.frames_logged = 0
         self.frame: Frame | None = None
         self._log: RerunLog
@@ -180,7 +182,7 @@ class _View:
         """Logs what has happened since the last frame, in a room that stands still."""
         assert self.frame is not None
         self._log.set_time(self.frame)
-        self._log_events()
+        self._log_events(self.frame.tick)
 
     def _take_state(self, state: RoomState) -> None:
         self.shapes = ShapeSet(state.bodies, state.joints)
@@ -199,6 +201,7 @@ class _View:
         else:
             self._bounds = with_margin(self.shapes.bounds())
         self._epoch = state.frame.epoch
+        self._hits.clear()
         self._stream, sinks = self._outputs.open_stream(self._room.name, state.frame.epoch)
         self._log = RerunLog(self._stream, self._bounds, self._options.velocities, self._options.contacts)
         # The blueprint goes with the sinks, which what was logged before waits for.
@@ -212,11 +215,11 @@ class _View:
             self._contacts = self._room.contacts()
             self._log.log_contacts(self._contacts)
         self._log.log_plots(frame)
-        self._log_events()
+        self._log_events(frame.tick)
         self.frame = frame
         self.frames_logged += 1
 
-    def _log_events(self) -> None:
+    def _log_events(self, tick: int) -> None:
         events = []
         try:
             for event in self._room.events(timeout=0):
@@ -224,6 +227,8 @@ class _View:
         except EventGap as gap:
             self._log.log_text(str(gap), rr.TextLogLevel.WARN)
         self._log.log_events(events)
+        self._hits.add(events, tick)
+        self._log.log_hits(self._hits)
 
     def end_recording(self) -> None:
         if self._stream is not None:
@@ -240,6 +245,7 @@ class _View:
         assert self.frame is not None
         draw_picture(
             self.shapes, path, bounds=self._bounds, velocities=self._options.velocities, contacts=self._contacts,
+            hits=self._hits,
             caption=f"{self._room.name} · tick {self.frame.tick} · {self.frame.sim_time:.2f} s",
         )  # fmt: skip
 

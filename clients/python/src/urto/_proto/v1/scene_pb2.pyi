@@ -144,6 +144,12 @@ class ForceField(_message.Message):
     spring: Spring
     def __init__(self, point_attractor: _Optional[_Union[PointAttractor, _Mapping]] = ..., drag: _Optional[_Union[Drag, _Mapping]] = ..., spring: _Optional[_Union[Spring, _Mapping]] = ...) -> None: ...
 
+class HitEvents(_message.Message):
+    __slots__ = ["speed_min"]
+    SPEED_MIN_FIELD_NUMBER: _ClassVar[int]
+    speed_min: float
+    def __init__(self, speed_min: _Optional[float] = ...) -> None: ...
+
 class Joint(_message.Message):
     __slots__ = ["anchor_a", "anchor_b", "body_a", "body_b", "break_force", "break_torque", "collide_connected", "distance", "mouse", "name", "prismatic", "revolute", "weld"]
     ANCHOR_A_FIELD_NUMBER: _ClassVar[int]
@@ -335,11 +341,12 @@ class WeldJoint(_message.Message):
     def __init__(self, reference_angle: _Optional[float] = ..., linear: _Optional[_Union[JointSpring, _Mapping]] = ..., angular: _Optional[_Union[JointSpring, _Mapping]] = ...) -> None: ...
 
 class WorldSettings(_message.Message):
-    __slots__ = ["broad_phase", "continuous", "friction_mixing", "gravity", "integrator", "narrow_phase", "precision", "restitution_mixing", "restitution_threshold", "sleeping", "solver", "sub_steps", "time_step"]
+    __slots__ = ["broad_phase", "continuous", "friction_mixing", "gravity", "hit_events", "integrator", "narrow_phase", "precision", "restitution_mixing", "restitution_threshold", "sleeping", "solver", "sub_steps", "time_step"]
     BROAD_PHASE_FIELD_NUMBER: _ClassVar[int]
     CONTINUOUS_FIELD_NUMBER: _ClassVar[int]
     FRICTION_MIXING_FIELD_NUMBER: _ClassVar[int]
     GRAVITY_FIELD_NUMBER: _ClassVar[int]
+    HIT_EVENTS_FIELD_NUMBER: _ClassVar[int]
     INTEGRATOR_FIELD_NUMBER: _ClassVar[int]
     NARROW_PHASE_FIELD_NUMBER: _ClassVar[int]
     PRECISION_FIELD_NUMBER: _ClassVar[int]
@@ -353,6 +360,7 @@ class WorldSettings(_message.Message):
     continuous: bool
     friction_mixing: Mixing
     gravity: Vector
+    hit_events: HitEvents
     integrator: Integrator
     narrow_phase: NarrowPhase
     precision: Precision
@@ -362,7 +370,7 @@ class WorldSettings(_message.Message):
     solver: Solver
     sub_steps: int
     time_step: float
-    def __init__(self, precision: _Optional[_Union[Precision, str]] = ..., gravity: _Optional[_Union[Vector, _Mapping]] = ..., time_step: _Optional[float] = ..., sub_steps: _Optional[int] = ..., solver: _Optional[_Union[Solver, str]] = ..., integrator: _Optional[_Union[Integrator, str]] = ..., broad_phase: _Optional[_Union[BroadPhase, str]] = ..., narrow_phase: _Optional[_Union[NarrowPhase, str]] = ..., sleeping: bool = ..., continuous: bool = ..., friction_mixing: _Optional[_Union[Mixing, str]] = ..., restitution_mixing: _Optional[_Union[Mixing, str]] = ..., restitution_threshold: _Optional[float] = ...) -> None: ...
+    def __init__(self, precision: _Optional[_Union[Precision, str]] = ..., gravity: _Optional[_Union[Vector, _Mapping]] = ..., time_step: _Optional[float] = ..., sub_steps: _Optional[int] = ..., solver: _Optional[_Union[Solver, str]] = ..., integrator: _Optional[_Union[Integrator, str]] = ..., broad_phase: _Optional[_Union[BroadPhase, str]] = ..., narrow_phase: _Optional[_Union[NarrowPhase, str]] = ..., sleeping: bool = ..., continuous: bool = ..., friction_mixing: _Optional[_Union[Mixing, str]] = ..., restitution_mixing: _Optional[_Union[Mixing, str]] = ..., restitution_threshold: _Optional[float] = ..., hit_events: _Optional[_Union[HitEvents, _Mapping]] = ...) -> None: ...
 
 class Precision(int, metaclass=_enum_type_wrapper.EnumTypeWrapper):
     __slots__ = []

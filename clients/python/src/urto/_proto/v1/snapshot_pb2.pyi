@@ -88,6 +88,20 @@ class ContactEnd(_message.Message):
     sensor: bool
     def __init__(self, body_a: _Optional[int] = ..., body_b: _Optional[int] = ..., sensor: bool = ...) -> None: ...
 
+class ContactHit(_message.Message):
+    __slots__ = ["approach_speed", "body_a", "body_b", "normal", "point"]
+    APPROACH_SPEED_FIELD_NUMBER: _ClassVar[int]
+    BODY_A_FIELD_NUMBER: _ClassVar[int]
+    BODY_B_FIELD_NUMBER: _ClassVar[int]
+    NORMAL_FIELD_NUMBER: _ClassVar[int]
+    POINT_FIELD_NUMBER: _ClassVar[int]
+    approach_speed: float
+    body_a: int
+    body_b: int
+    normal: _scene_pb2.Vector
+    point: _scene_pb2.Vector
+    def __init__(self, body_a: _Optional[int] = ..., body_b: _Optional[int] = ..., point: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ..., normal: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ..., approach_speed: _Optional[float] = ...) -> None: ...
+
 class Contacts(_message.Message):
     __slots__ = ["body_a", "body_b", "normal_impulse", "normal_x", "normal_y", "separation", "tangent_impulse", "x", "y"]
     BODY_A_FIELD_NUMBER: _ClassVar[int]
@@ -131,12 +145,13 @@ class Diagnostics(_message.Message):
     def __init__(self, tick: _Optional[int] = ..., sim_time: _Optional[float] = ..., state_hash: _Optional[int] = ..., kinetic_energy: _Optional[float] = ..., potential_energy: _Optional[float] = ..., momentum: _Optional[_Union[_scene_pb2.Vector, _Mapping]] = ..., angular_momentum: _Optional[float] = ..., statistics: _Optional[_Union[Statistics, _Mapping]] = ...) -> None: ...
 
 class Event(_message.Message):
-    __slots__ = ["batch_rejected", "body_added", "body_removed", "contact_begin", "contact_end", "events_dropped", "joint_added", "joint_broke", "joint_removed", "member_joined", "member_left", "room_paused", "room_reset", "room_resumed", "tick", "time_scale_changed"]
+    __slots__ = ["batch_rejected", "body_added", "body_removed", "contact_begin", "contact_end", "contact_hit", "events_dropped", "joint_added", "joint_broke", "joint_removed", "member_joined", "member_left", "room_paused", "room_reset", "room_resumed", "tick", "time_scale_changed"]
     BATCH_REJECTED_FIELD_NUMBER: _ClassVar[int]
     BODY_ADDED_FIELD_NUMBER: _ClassVar[int]
     BODY_REMOVED_FIELD_NUMBER: _ClassVar[int]
     CONTACT_BEGIN_FIELD_NUMBER: _ClassVar[int]
     CONTACT_END_FIELD_NUMBER: _ClassVar[int]
+    CONTACT_HIT_FIELD_NUMBER: _ClassVar[int]
     EVENTS_DROPPED_FIELD_NUMBER: _ClassVar[int]
     JOINT_ADDED_FIELD_NUMBER: _ClassVar[int]
     JOINT_BROKE_FIELD_NUMBER: _ClassVar[int]
@@ -153,6 +168,7 @@ class Event(_message.Message):
     body_removed: BodyRemoved
     contact_begin: ContactBegin
     contact_end: ContactEnd
+    contact_hit: ContactHit
     events_dropped: EventsDropped
     joint_added: JointAdded
     joint_broke: JointBroke
@@ -164,7 +180,7 @@ class Event(_message.Message):
     room_resumed: RoomResumed
     tick: int
     time_scale_changed: TimeScaleChanged
-    def __init__(self, tick: _Optional[int] = ..., contact_begin: _Optional[_Union[ContactBegin, _Mapping]] = ..., contact_end: _Optional[_Union[ContactEnd, _Mapping]] = ..., body_added: _Optional[_Union[BodyAdded, _Mapping]] = ..., body_removed: _Optional[_Union[BodyRemoved, _Mapping]] = ..., member_joined: _Optional[_Union[MemberJoined, _Mapping]] = ..., member_left: _Optional[_Union[MemberLeft, _Mapping]] = ..., room_paused: _Optional[_Union[RoomPaused, _Mapping]] = ..., room_resumed: _Optional[_Union[RoomResumed, _Mapping]] = ..., room_reset: _Optional[_Union[RoomReset, _Mapping]] = ..., time_scale_changed: _Optional[_Union[TimeScaleChanged, _Mapping]] = ..., batch_rejected: _Optional[_Union[BatchRejected, _Mapping]] = ..., events_dropped: _Optional[_Union[EventsDropped, _Mapping]] = ..., joint_added: _Optional[_Union[JointAdded, _Mapping]] = ..., joint_removed: _Optional[_Union[JointRemoved, _Mapping]] = ..., joint_broke: _Optional[_Union[JointBroke, _Mapping]] = ...) -> None: ...
+    def __init__(self, tick: _Optional[int] = ..., contact_begin: _Optional[_Union[ContactBegin, _Mapping]] = ..., contact_end: _Optional[_Union[ContactEnd, _Mapping]] = ..., body_added: _Optional[_Union[BodyAdded, _Mapping]] = ..., body_removed: _Optional[_Union[BodyRemoved, _Mapping]] = ..., member_joined: _Optional[_Union[MemberJoined, _Mapping]] = ..., member_left: _Optional[_Union[MemberLeft, _Mapping]] = ..., room_paused: _Optional[_Union[RoomPaused, _Mapping]] = ..., room_resumed: _Optional[_Union[RoomResumed, _Mapping]] = ..., room_reset: _Optional[_Union[RoomReset, _Mapping]] = ..., time_scale_changed: _Optional[_Union[TimeScaleChanged, _Mapping]] = ..., batch_rejected: _Optional[_Union[BatchRejected, _Mapping]] = ..., events_dropped: _Optional[_Union[EventsDropped, _Mapping]] = ..., joint_added: _Optional[_Union[JointAdded, _Mapping]] = ..., joint_removed: _Optional[_Union[JointRemoved, _Mapping]] = ..., joint_broke: _Optional[_Union[JointBroke, _Mapping]] = ..., contact_hit: _Optional[_Union[ContactHit, _Mapping]] = ...) -> None: ...
 
 class EventBatch(_message.Message):
     __slots__ = ["epoch", "events", "first_sequence", "oldest_sequence"]
