@@ -22,10 +22,17 @@ inline constexpr double kPushSpeedMax = 3.0;  // m/s
 inline constexpr double kContactHertz = 30.0;
 inline constexpr double kContactDampingRatio = 10.0;
 inline constexpr double kContactHertzPerSubStepRate = 0.25;  // of the sub-steps per second
+// What stands still cannot swing with what lies on it, so contacts with it can have twice the frequency (as in Box2D).
+inline constexpr double kGroundStiffness = 2.0;
 
-// Time in which a contact's preload follows its impulse. Shorter (4 s), and stacks of a hundred boxes begin to swing,
-// because the load reaches the ground more slowly than the preload chases it; longer, and they recover late.
-inline constexpr double kPreloadTime = 8.0;  // s
+// Time in which a contact's preload follows its impulse. Shorter, and large pyramids spread and stacks of a hundred
+// boxes begin to swing, because the load reaches the ground more slowly than the preload chases it; longer, and they
+// recover late. Measured in docs/decisions/0006.
+inline constexpr double kPreloadTime = 12.0;  // s
+
+// A normal impulse that grows by more than this speed in a sub-step is a shock: its friction waits until bodies have
+// moved.
+inline constexpr double kShockSpeed = 1.0;  // m/s
 
 // The arms of a contact follow the drift of its bodies up to this share of the shorter arm. Bodies that pass each other
 // faster have left the point that their masses were computed for, and long arms on a small body would make energy.

@@ -266,7 +266,10 @@ HWY_INLINE void solve_friction(Lanes<S>& k, const Arms<S>& r, PointLanes<S>& p, 
   take_up_speed(k, k.speed_across, impulse);
 }
 
-// What a point asks of its relative normal velocity: v + bias = −γ (λ − P), where γ is its compliance, P its preload.
+// What a point asks of its relative normal velocity: v + bias = −γ λ, where γ is its compliance. While it is closed the
+// spring's deflection and the preload P make the bias: rate · s − γ P. It opens where that is all that its preload can
+// bridge, s = γ P / rate: the force falls to nothing on the way there and does not jump. Beyond, the gap may close in
+// this sub-step, but no more.
 template <class S>
 struct Demand {
   Vector<S> bias, compliance;
@@ -275,18 +278,19 @@ struct Demand {
 template <class S, bool kUseBias>
 HWY_INLINE Demand<S> demand_of(const Lanes<S>& k, const PointLanes<S>& p, const Arms<S>& r, Vector<S> inverse_mass,
                                const PassSettings<S>& settings) {
-  const auto zero = hn::Zero(Tag<S>()), one = set(S(1));
+  const auto one = set(S(1));
   // Where the anchors are now: material points, turned with their bodies.
   const auto b_along = hn::Sub(r.along, k.between_along), b_lever = hn::Sub(r.lever, k.between_lever);
   const auto turned_b = hn::Add(hn::Mul(hn::Sub(k.b.c, one), b_along), hn::Mul(k.b.s, b_lever));
   const auto turned_a = hn::Add(hn::Mul(hn::Sub(k.a.c, one), r.along), hn::Mul(k.a.s, r.lever));
   const auto s = hn::Add(load(p.separation + k.lane), hn::Add(k.drift_along, hn::Sub(turned_b, turned_a)));
-  const auto apart = hn::Gt(s, zero);
-  const auto closing = hn::Mul(s, set(settings.inv_h));  // may close the gap in this sub-step, not more
-  if (!kUseBias) return {hn::IfThenElseZero(apart, closing), zero};
-  const auto pushing = larger(hn::Mul(set(settings.bias_rate), s), set(S(-kPushSpeedMax)));
   const auto soft = hn::Mul(set(settings.compliance), inverse_mass);
-  return {hn::IfThenElse(apart, closing, pushing), hn::IfThenElse(apart, zero, soft)};
+  const auto held = hn::Mul(soft, load(p.preload + k.lane)), wanted = hn::Mul(set(settings.bias_rate), s);
+  const auto open = hn::Gt(wanted, held);
+  const auto closing = hn::Mul(s, set(settings.inv_h));
+  if (!kUseBias) return {hn::IfThenElseZero(open, closing), soft};
+  const auto pushing = hn::Sub(larger(wanted, set(S(-kPushSpeedMax))), held);
+  return {hn::IfThenElse(open, closing, pushing), hn::IfThenZeroElse(open, soft)};
 }
 
 template <class V>
@@ -346,18 +350,17 @@ struct NormalPoints {
   }
 };
 
-// λ of both points: (K + γ) λ = K λ₀ − v − bias + γ P where they push.
+// λ of both points: (K + γ) λ = K λ₀ − v − bias where they push.
 template <class S, bool kUseBias>
 HWY_INLINE TwoImpulses<Vector<S>> solve_normals(Lanes<S>& k, const Arms<S>& r1, const Arms<S>& r2,
                                                 const PassSettings<S>& settings) {
   const NormalPoints<S> n(k);
   const Demand<S> d1 = demand_of<S, kUseBias>(k, n.p1, r1, n.m1, settings);
   const Demand<S> d2 = demand_of<S, kUseBias>(k, n.p2, r2, n.m2, settings);
-  auto q1 = hn::Sub(n.wanted_1(normal_speed(k, r1)), d1.bias), q2 = hn::Sub(n.wanted_2(normal_speed(k, r2)), d2.bias);
+  const auto q1 = hn::Sub(n.wanted_1(normal_speed(k, r1)), d1.bias);
+  const auto q2 = hn::Sub(n.wanted_2(normal_speed(k, r2)), d2.bias);
   auto k11 = n.m1, k22 = n.m2;
   if (kUseBias) {
-    q1 = hn::Add(q1, hn::Mul(d1.compliance, load(n.p1.preload + k.lane)));
-    q2 = hn::Add(q2, hn::Mul(d2.compliance, load(n.p2.preload + k.lane)));
     k11 = hn::Add(k11, d1.compliance);
     k22 = hn::Add(k22, d2.compliance);
   }
@@ -366,13 +369,30 @@ HWY_INLINE TwoImpulses<Vector<S>> solve_normals(Lanes<S>& k, const Arms<S>& r1, 
   return next;
 }
 
+// The normal impulse of the step so far.
 template <class S>
-HWY_INLINE void add_to_totals(const Lanes<S>& k, PointLanes<S>& p, Vector<S> normal, const PassSettings<S>& settings) {
-  const auto preload = load(p.preload + k.lane);
-  store(hn::Add(preload, hn::Mul(set(settings.preload_rate), hn::Sub(normal, preload))), p.preload + k.lane);
-  store(hn::Add(load(p.total_normal_impulse + k.lane), normal), p.total_normal_impulse + k.lane);
+HWY_INLINE Vector<S> add_to_totals(const Lanes<S>& k, PointLanes<S>& p, Vector<S> normal) {
+  const auto total = hn::Add(load(p.total_normal_impulse + k.lane), normal);
+  store(total, p.total_normal_impulse + k.lane);
   store(hn::Add(load(p.total_tangent_impulse + k.lane), load(p.tangent_impulse + k.lane)),
         p.total_tangent_impulse + k.lane);
+  return total;
+}
+
+// At the end of a step preloads follow its mean impulse, and that of both points where there are two: where a body
+// rests on more points than it needs, nothing tells how they share its weight, and preloads that follow each share
+// wander off.
+template <class S>
+HWY_INLINE void follow_loads(const Lanes<S>& k, const TwoImpulses<Vector<S>>& totals, const PassSettings<S>& settings) {
+  PointLanes<S>&p = k.block.points[0], &q = k.block.points[1];
+  const auto two = hn::Lt(load(q.separation + k.lane), set(S(kFarSeparation)));
+  const auto half = hn::Mul(set(S(0.5)), hn::Add(totals.first, totals.second));
+  const auto follow = [&](PointLanes<S>& point, auto total) HWY_ATTR {
+    const auto mean = hn::Mul(set(settings.sub_step_share), total), preload = load(point.preload + k.lane);
+    store(hn::Add(preload, hn::Mul(set(settings.preload_rate), hn::Sub(mean, preload))), point.preload + k.lane);
+  };
+  follow(p, hn::IfThenElse(two, half, totals.first));
+  follow(q, hn::IfThenElse(two, half, totals.second));
 }
 
 // The speed at which restitution lets a point leave: e times that at which it closed in, if that was fast enough and
@@ -433,24 +453,34 @@ void warm_start(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, 
   for_each_vector<S>(motions, blocks, count, [](Lanes<S>& k, std::size_t) HWY_ATTR { warm_start_lanes(k); });
 }
 
-// With bias friction comes first, so that the last word before bodies move is that they do not penetrate.
+// What a point's friction may be bounded by before bodies move: its normal impulse, but for a shock. Friction turns a
+// body, and after a blow it would turn its corner into a thin wall faster than the wall is thick; it rubs when the
+// bodies have moved.
+template <class S>
+HWY_INLINE Vector<S> without_shock(const Lanes<S>& k, const PointLanes<S>& p, Vector<S> before, Vector<S> now) {
+  return smaller(now, hn::Add(before, hn::Mul(set(S(kShockSpeed)), load(p.tangent_mass + k.lane))));
+}
+
+// Friction comes last in both passes: the bodies move by the velocities that the first one leaves, and what slides
+// between the bound of the sub-step before and this one's is never taken back.
 template <class S>
 void solve(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const PassSettings<S>& settings) {
   for_each_vector<S>(motions, blocks, count, [&settings](Lanes<S>& k, std::size_t) HWY_ATTR {
     PointLanes<S>&p1 = k.block.points[0], &p2 = k.block.points[1];
     const Arms<S> r1(k, p1), r2(k, p2);
+    const auto before_1 = load(p1.normal_impulse + k.lane), before_2 = load(p2.normal_impulse + k.lane);
+    const auto normals = solve_normals<S, true>(k, r1, r2, settings);
     if (settings.friction) {
       const auto friction = load(k.block.friction + k.lane);
-      solve_friction(k, r1, p1, friction, load(p1.normal_impulse + k.lane));
-      solve_friction(k, r2, p2, friction, load(p2.normal_impulse + k.lane));
+      solve_friction(k, r1, p1, friction, without_shock(k, p1, before_1, normals.first));
+      solve_friction(k, r2, p2, friction, without_shock(k, p2, before_2, normals.second));
     }
-    solve_normals<S, true>(k, r1, r2, settings);
   });
 }
 
-// In the relaxation friction comes last, bounded by the impulse without the spring's share: a bound from the spring
-// would make a slope a little too slippery.
-template <class S>
+// In the relaxation friction is bounded by the impulse without the spring's share: a bound from the spring would make a
+// slope a little too slippery.
+template <class S, bool kLast>
 void relax(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const PassSettings<S>& settings) {
   for_each_vector<S>(motions, blocks, count, [&settings](Lanes<S>& k, std::size_t) HWY_ATTR {
     PointLanes<S>&p1 = k.block.points[0], &p2 = k.block.points[1];
@@ -461,8 +491,8 @@ void relax(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const
       solve_friction(k, r1, p1, friction, normals.first);
       solve_friction(k, r2, p2, friction, normals.second);
     }
-    add_to_totals(k, p1, normals.first, settings);
-    add_to_totals(k, p2, normals.second, settings);
+    const TwoImpulses<Vector<S>> totals{add_to_totals(k, p1, normals.first), add_to_totals(k, p2, normals.second)};
+    if (kLast) follow_loads(k, totals, settings);
   });
 }
 
@@ -474,7 +504,7 @@ void restitute(Motion<S>* motions, ContactBlock<S>* blocks, const ContactBlockRe
 }
 
 template <class S>
-constexpr ContactPasses<S> kPasses{take<S>, warm_start<S>, solve<S>, relax<S>, restitute<S>};
+constexpr ContactPasses<S> kPasses{take<S>, warm_start<S>, solve<S>, relax<S, false>, relax<S, true>, restitute<S>};
 
 }  // namespace
 

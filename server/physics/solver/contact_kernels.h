@@ -19,8 +19,9 @@ struct PassSettings {
   S inv_h;      // 1/s
   S bias_rate;  // 1/s
   S compliance;
-  S preload_rate;  // share of the way to the impulse per sub-step
-  S threshold;     // m/s, of restitution
+  S sub_step_share;  // of a step: 1 / sub-steps
+  S preload_rate;    // share of the way to the mean impulse per step
+  S threshold;       // m/s, of restitution
   bool friction;
 };
 
@@ -33,7 +34,8 @@ struct ContactPasses {
                ContactBlockRest<S>& rest);
   Pass warm_start;  // applies the impulses of the last sub-step
   Pass solve;       // with bias: pushes overlap apart
-  Pass relax;       // without; also keeps the totals and the preload
+  Pass relax;       // without; also keeps the totals
+  Pass relax_last;  // in the last sub-step: also lets the preloads follow
   void (*restitute)(Motion<S>* motions, ContactBlock<S>* blocks, const ContactBlockRest<S>* rest, std::size_t count,
                     const PassSettings<S>& settings);
 };

@@ -68,26 +68,38 @@ void integrate_positions(WorldData<S>& world, const Mover<S>& mover) {
 }
 
 template <class S>
-PassSettings<S> pass_settings(const WorldData<S>& world, S h) {
-  const S hertz = min_of(S(kContactHertz), S(kContactHertzPerSubStepRate) / h);
+PassSettings<S> pass_settings(const WorldData<S>& world, S h, S stiffer) {
+  const S hertz = stiffer * min_of(S(kContactHertz), S(kContactHertzPerSubStepRate) / h);
   const Softness<S> soft(hertz, S(kContactDampingRatio), h);
   return {S(1) / h,
           soft.bias_rate,
           soft.compliance,
-          h / S(kPreloadTime),
+          S(1) / S(world.settings.sub_steps),
+          min_of(S(1), S(world.settings.time_step / kPreloadTime)),
           S(world.settings.restitution_threshold),
           world.model.friction};
 }
 
-// Colour after colour; the blocks of one are shared out. Those that fit no colour are solved one after the other.
+// Gauss-Seidel favours what it solves last; were that always the same side, a pile would lean over to it. So the
+// colours of movable bodies are taken in turn forwards and backwards.
+enum class Order { kForwards, kBackwards };
+
+std::uint32_t color_at(std::uint32_t place, Order order) {
+  return order == Order::kBackwards && place < kMovableColors ? kMovableColors - 1 - place : place;
+}
+
+// Colour after colour, those with unmovable bodies last; the blocks of one are shared out. Those that fit no colour are
+// solved one after the other.
 template <class S, class Work>
-void for_each_color(WorldData<S>& world, const Work& work) {
-  for (std::uint32_t i = 0; i < kColorsMax; ++i) {
+void for_each_color(WorldData<S>& world, Order order, const Work& work) {
+  for (std::uint32_t place = 0; place < kColorsMax; ++place) {
+    const std::uint32_t i = color_at(place, order);
     auto& color = world.touching.colors[i];
     if (color.blocks.empty()) continue;
     const std::size_t grain = takes_what_fits_nowhere(i) ? color.blocks.size() : kBlocksPerShare;
+    const bool ground = i >= kMovableColors;
     world.team->share(color.blocks.size(), grain,
-                      [&](unsigned, std::size_t begin, std::size_t end) { work(color, begin, end); });
+                      [&](unsigned, std::size_t begin, std::size_t end) { work(color, ground, begin, end); });
   }
 }
 
@@ -99,11 +111,12 @@ void solve_soft_step(WorldData<S>& world, JointSet<S>& joint_set) {
   const S h = S(world.settings.time_step / n);
   const Mover<S> mover(world, h);
   const bool pulled = only_gravity_acts(world, mover);
-  const PassSettings<S> settings = pass_settings(world, h);
+  const PassSettings<S> between = pass_settings(world, h, S(1));
+  const PassSettings<S> on_ground = pass_settings(world, h, S(kGroundStiffness));
   const ContactPasses<S>& passes = contact_passes<S>();
-  const auto run = [&](typename ContactPasses<S>::Pass pass) {
-    for_each_color(world, [&](auto& color, std::size_t begin, std::size_t end) {
-      pass(world.motions.data(), &color.blocks[begin], end - begin, settings);
+  const auto run = [&](typename ContactPasses<S>::Pass pass, Order order) {
+    for_each_color(world, order, [&](auto& color, bool ground, std::size_t begin, std::size_t end) {
+      pass(world.motions.data(), &color.blocks[begin], end - begin, ground ? on_ground : between);
     });
   };
   JointPasses<S> joints(world, joint_set, h);
@@ -114,17 +127,17 @@ void solve_soft_step(WorldData<S>& world, JointSet<S>& joint_set) {
       integrate_velocities(world, mover);
     }
     joints.warm_start();
-    run(passes.warm_start);
+    run(passes.warm_start, Order::kForwards);
     joints.solve();
-    run(passes.solve);
+    run(passes.solve, i % 2 == 0 ? Order::kForwards : Order::kBackwards);
     integrate_positions(world, mover);
     joints.relax();
-    run(passes.relax);
+    run(i + 1 < n ? passes.relax : passes.relax_last, Order::kBackwards);
   }
   joints.store();
   if (!world.model.restitution) return;
-  for_each_color(world, [&](auto& color, std::size_t begin, std::size_t end) {
-    passes.restitute(world.motions.data(), &color.blocks[begin], &color.rest[begin], end - begin, settings);
+  for_each_color(world, Order::kForwards, [&](auto& color, bool, std::size_t begin, std::size_t end) {
+    passes.restitute(world.motions.data(), &color.blocks[begin], &color.rest[begin], end - begin, between);
   });
 }
 

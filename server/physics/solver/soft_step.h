@@ -10,7 +10,8 @@ namespace urto {
 // - impulses act at one world point for both bodies while they drift, so angular momentum is conserved
 //   (but for bodies that race past each other, kDriftFraction);
 // - the soft contacts have a preload, so that stacks do not stay sunk under their weight (softness.h);
-// - two points of a manifold are solved together, so that a stack does not creep sideways.
+// - two points of a manifold are solved together, so that a stack does not creep sideways;
+// - colours are taken forwards and backwards in turn, so that a pile does not lean over to one side.
 //
 // Per sub-step: integrate velocities, warm start, solve with bias, integrate positions, relax (solve without bias).
 // After the last: restitution. Works on the lanes of the contact set in place; joints come before contacts in each
