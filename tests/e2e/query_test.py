@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import math
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
 import urto
 from conftest import TIMEOUT_S, WEIGHTLESS, Start
 
+URTO = Path(sys.executable).with_name("urto")
 FLOAT = WEIGHTLESS.replace("PRECISION_DOUBLE", "PRECISION_FLOAT")
 
 
@@ -77,6 +81,28 @@ def test_closest_points_lie_on_both_shapes(start: Start) -> None:
         assert (deep.body, deep.distance) == (box, pytest.approx(-0.25))
         assert deep.point == pytest.approx((1, 0.25))
         assert deep.normal == pytest.approx((1, 0))
+
+
+def test_the_viewer_shows_what_a_body_would_meet(start: Start, tmp_path: Path) -> None:
+    pytest.importorskip("rerun")
+    from rerun.chunk import RrdReader
+
+    urtod = start("platformer")
+    command = [URTO, "view", "--endpoint", urtod.endpoint, "--save", tmp_path, "--ticks", "30", "--feel", "player"]
+    subprocess.run(command, check=True, capture_output=True, timeout=TIMEOUT_S * 4)
+    ways, discs = [], []
+    for chunk in RrdReader(tmp_path / "room.rrd").store().stream().to_chunks():
+        batch = chunk.to_record_batch()
+        if str(chunk.entity_path) == "/room/camera/feelers" and "LineStrips2D:strips" in batch.schema.names:
+            ways += batch.column("LineStrips2D:strips").to_pylist()
+        if str(chunk.entity_path) == "/room/camera/felt" and "Points2D:positions" in batch.schema.names:
+            discs += batch.column("Points2D:positions").to_pylist()
+    assert {len(each) for each in ways} == {32}
+    assert 0 < max(len(each) for each in discs) <= 32
+    missing = [URTO, "view", "--endpoint", urtod.endpoint, "--save", tmp_path, "--ticks", "1", "--feel", "nobody"]
+    refused = subprocess.run(missing, capture_output=True, text=True, timeout=TIMEOUT_S * 4, check=False)
+    assert refused.returncode == 4
+    assert "nobody" in refused.stderr
 
 
 def test_what_makes_no_shape_is_refused_by_name(start: Start) -> None:

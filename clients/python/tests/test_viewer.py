@@ -18,8 +18,9 @@ import urto
 from support.fake_room import GRAVITY_Y, TIME_STEP, FakeRoom, Running
 from urto._proto.v1 import scene_pb2, snapshot_pb2
 from urto._viewer import outputs
+from urto._viewer.feelers import FEELERS, REACH
 from urto._viewer.hits import HIT_SIZE, HIT_SIZE_MAX, HIT_TICKS
-from urto._viewer.palette import BACKGROUND, HIT, STATIC
+from urto._viewer.palette import BACKGROUND, FEELER, HIT, STATIC
 from urto._viewer.shapes import ShapeSet
 from urto._viewer.triangulate import signed_area, triangulate
 from urto._viewer.view import ViewOptions, _Outputs, _View, view
@@ -149,6 +150,45 @@ def test_hits_are_discs_by_their_speed_for_a_while(room: urto.Room, fake: FakeRo
     assert discs[-1][1] == []
     picture = Image.open(tmp_path / "room.png")
     assert HIT in {color for _, color in picture.getcolors(maxcolors=picture.width * picture.height)}
+
+
+def test_feelers_reach_to_what_is_met(room: urto.Room, tmp_path: Path) -> None:
+    room.spawn([urto.Circle(radius=1, name="player", color=0), urto.Circle(radius=1, position=(6, 0), color=0)])
+    shown = _View(room, ViewOptions(save=tmp_path, feel="player"), _Outputs(ViewOptions(save=tmp_path), print))
+    shown.begin()
+    shown.draw(tmp_path / "room.png")
+    shown.end_recording()
+    felt = shown._felt
+    assert felt is not None
+    width = shown._log._right - shown._log._left
+    # The room of this test says that everything is met halfway; the body itself does not count.
+    assert felt.ends.shape == (FEELERS, 2)
+    assert np.hypot(*felt.ends.T) == pytest.approx(REACH * width / 2)
+    assert felt.met.all()
+    assert felt.nearest is not None
+    assert felt.nearest.tolist() == [[0, 0], [6, 0]]
+    strips = _values(tmp_path / "room.rrd", "/room/camera/feelers", "LineStrips2D:strips")
+    assert len(strips[-1][1]) == FEELERS
+    assert len(_values(tmp_path / "room.rrd", "/room/camera/nearest", "LineStrips2D:strips")[-1][1]) == 1
+    picture = Image.open(tmp_path / "room.png")
+    assert FEELER in {color for _, color in picture.getcolors(maxcolors=picture.width * picture.height)}
+
+
+def test_feelers_of_nobody_are_refused_and_of_one_who_is_gone_end(room: urto.Room, tmp_path: Path) -> None:
+    options = ViewOptions(save=tmp_path, feel="player")
+    with pytest.raises(urto.UnknownBody):
+        _View(room, options, _Outputs(options, print)).begin()
+    room.spawn(urto.Circle(radius=1, name="player"))
+    shown = _View(room, options, _Outputs(options, print))
+    shown.begin()
+    assert shown._felt is not None
+    assert not shown._felt.met.any()
+    assert shown._felt.nearest is None
+    room.reset()
+    room.spawn(urto.Box(width=3, height=3))
+    shown.show(room.step(2))
+    assert shown._felt is None
+    shown.end_recording()
 
 
 def test_round_shapes_and_chains_are_drawn(room: urto.Room, tmp_path: Path) -> None:

@@ -135,6 +135,7 @@ def _add_view(add: _Add) -> None:
     what = view.add_argument_group("what")
     what.add_argument("--velocities", action="store_true", help="an arrow on every moving body")
     what.add_argument("--contacts", action="store_true", help="contact points and normals")
+    what.add_argument("--feel", metavar="BODY", help="name or id: discs are cast all round from it")
     what.add_argument("--rate", type=float, default=30.0, metavar="HZ", help="frames per second at most; default: 30")
     bound = view.add_argument_group("how long (default: until Ctrl-C; 10 s if it only saves)")
     bound.add_argument("--seconds", type=float, help="of the clock")
@@ -270,6 +271,7 @@ def _view(room: Room, options: argparse.Namespace) -> None:
             web=options.web, web_port=options.web_port, connect=options.connect,
             seconds=options.seconds, ticks=options.ticks, rate_hz=options.rate, velocities=options.velocities,
             contacts=options.contacts, screenshot=options.screenshot,
+            feel=None if options.feel is None else _body_ref(options.feel),
         ),
         say=lambda line: print(line, flush=True),
     )  # fmt: skip

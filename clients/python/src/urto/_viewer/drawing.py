@@ -9,8 +9,9 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from urto._frame import Contacts
+from urto._viewer.feelers import Felt
 from urto._viewer.hits import RecentHits
-from urto._viewer.palette import BACKGROUND, CONTACT, GRID, HIT, JOINT, TEXT, VELOCITY, Color, darker
+from urto._viewer.palette import BACKGROUND, CONTACT, FEELER, GRID, HIT, JOINT, TEXT, VELOCITY, Color, darker
 from urto._viewer.shapes import LAYERS, Layer, ShapeSet, with_margin
 
 SUPERSAMPLING = 3
@@ -90,6 +91,7 @@ def draw_picture(
     velocities: bool = False,
     contacts: Contacts | None = None,
     hits: RecentHits | None = None,
+    felt: Felt | None = None,
 ) -> None:
     """Writes a PNG of the shapes where their poses are.
 
@@ -101,6 +103,7 @@ def draw_picture(
         velocities: draw an arrow on every moving body.
         contacts: draw their points and normals.
         hits: draw a disc for each, by its speed.
+        felt: draw what a body would meet.
     """
     canvas = _Canvas(bounds or with_margin(shapes.bounds()))
     step = canvas.grid()
@@ -116,6 +119,8 @@ def draw_picture(
             tip = center_x + normal[0] * 5 * r, center_y - normal[1] * 5 * r
             canvas.draw.line([(center_x, center_y), tip], fill=CONTACT, width=SUPERSAMPLING)
             canvas.draw.ellipse((center_x - r, center_y - r, center_x + r, center_y + r), fill=CONTACT)
+    if felt is not None:
+        _draw_felt(canvas, felt)
     if hits is not None:
         for (x, y), radius in zip(hits.points.tolist(), hits.radii(canvas.width / canvas.scale).tolist(), strict=True):
             center_x, center_y = canvas.px(x, y)
@@ -128,6 +133,18 @@ def draw_picture(
     )
     size = canvas.width // SUPERSAMPLING, canvas.height // SUPERSAMPLING
     canvas.image.resize(size, Image.Resampling.LANCZOS).save(path, optimize=True)
+
+
+def _draw_felt(canvas: _Canvas, felt: Felt) -> None:
+    origin = canvas.px(*felt.origin)
+    r = felt.radius * canvas.scale
+    for (x, y), met in zip(felt.ends.tolist(), felt.met.tolist(), strict=True):
+        end_x, end_y = canvas.px(x, y)
+        canvas.draw.line([origin, (end_x, end_y)], fill=FEELER, width=SUPERSAMPLING)
+        if met:
+            canvas.draw.ellipse((end_x - r, end_y - r, end_x + r, end_y + r), fill=FEELER)
+    if felt.nearest is not None:
+        canvas.draw.line([canvas.px(x, y) for x, y in felt.nearest.tolist()], fill=HIT, width=3 * SUPERSAMPLING)
 
 
 def _draw_joints(canvas: _Canvas, shapes: ShapeSet) -> None:

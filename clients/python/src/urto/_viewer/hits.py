@@ -12,7 +12,7 @@ from urto._events import ContactHit, Event
 HIT_TICKS = 15
 """For so long a hit is shown."""
 
-HIT_SIZE = 0.001
+HIT_SIZE = 0.002
 """Radius over the view's width, for each m/s."""
 
 HIT_SIZE_MAX = 0.03

@@ -17,6 +17,7 @@ VELOCITY: Color = (235, 240, 250)
 JOINT: Color = (250, 240, 170)
 CONTACT: Color = (255, 84, 104)
 HIT: Color = (255, 214, 92)
+FEELER: Color = (120, 235, 200)
 
 # Light enough for a dark background, neighbours far apart in hue so that bodies that touch can be told apart.
 _BODIES: tuple[Color, ...] = (

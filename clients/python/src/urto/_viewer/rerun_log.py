@@ -4,7 +4,8 @@ A room is flat, and Rerun's plain 2D boxes cannot rotate; so the shapes are logg
 of a kind, and looked at through a pinhole camera far away: focal length 1000 at 1000 m, so that one pixel is one metre.
 Overlays are 2D, in pixels of that camera: x − left, top − y.
 
-    room/camera            the pinhole; below it the overlays velocities, contacts, normals, hits
+    room/camera            the pinhole; below it the overlays velocities, contacts, normals, hits,
+                           feelers (the ways of cast discs), felt (the discs that were stopped), nearest
     room/<layer>/boxes     layer: static, bodies, sensors
     room/<layer>/edges     the outlines of the boxes
     room/<layer>/discs
@@ -27,8 +28,9 @@ from urto._describe import describe
 from urto._events import ContactBegin, ContactEnd, ContactHit, Event, EventsDropped
 from urto._frame import Contacts, Frame
 from urto._info import RoomInfo
+from urto._viewer.feelers import Felt
 from urto._viewer.hits import RecentHits
-from urto._viewer.palette import BACKGROUND, CONTACT, HIT, JOINT, VELOCITY, darker
+from urto._viewer.palette import BACKGROUND, CONTACT, FEELER, HIT, JOINT, VELOCITY, darker
 from urto._viewer.shapes import LAYERS, Layer, ShapeSet
 
 CAMERA = "room/camera"
@@ -194,6 +196,20 @@ class RerunLog:
                 radii=rr.Radius.ui_points(0.7), draw_order=50,
             ),
         )  # fmt: skip
+
+    def log_felt(self, felt: Felt) -> None:
+        """Where discs come to from a body, and its nearest neighbour."""
+        ends = self._to_pixels(felt.ends)
+        (origin,) = self._to_pixels(np.array([felt.origin]))
+        nearest = [] if felt.nearest is None else [self._to_pixels(felt.nearest)]
+        log, thin = self._stream.log, rr.Radius.ui_points(0.7)
+        ways = [[origin, end] for end in ends]
+        log(f"{CAMERA}/feelers", rr.LineStrips2D(ways, colors=[FEELER], radii=thin, draw_order=30))
+        log(f"{CAMERA}/felt", rr.Points2D(ends[felt.met], colors=[FEELER], radii=felt.radius, draw_order=31))
+        log(
+            f"{CAMERA}/nearest",
+            rr.LineStrips2D(nearest, colors=[HIT], radii=rr.Radius.ui_points(2.0), draw_order=32),
+        )
 
     def log_hits(self, hits: RecentHits) -> None:
         """A disc for each, for a while."""

@@ -12,11 +12,13 @@ from pathlib import Path
 
 import rerun as rr
 
+from urto._commands import BodyRef
 from urto._core import RoomState
-from urto._exceptions import EventGap, InvalidArgument, RequestTimeout
+from urto._exceptions import EventGap, InvalidArgument, RequestTimeout, UnknownBody
 from urto._frame import Contacts, Frame
 from urto._room import Room
 from urto._viewer.drawing import draw_picture
+from urto._viewer.feelers import Feelers, Felt
 from urto._viewer.hits import RecentHits
 from urto._viewer.outputs import ViewerError, ViewerProcess, check_listening, open_web, open_window
 from urto._viewer.rerun_log import RerunLog
@@ -54,6 +56,7 @@ class ViewOptions:
         rate_hz: frames logged per second at most.
         velocities: an arrow on every moving body.
         contacts: contact points and normals, and contact events in the log.
+        feel: name or id of a body: discs are cast all round from it, to see what it would meet.
         screenshot: with `save`, also a picture of Rerun's own viewer, viewer.png.
     """
 
@@ -67,6 +70,7 @@ class ViewOptions:
     rate_hz: float = LOG_RATE_HZ
     velocities: bool = False
     contacts: bool = False
+    feel: BodyRef | None = None
     screenshot: bool = False
 
 
@@ -159,6 +163,8 @@ class _View:
         self._bounds: tuple[float, float, float, float] | None = None
         self._contacts: Contacts | None = None
         self._hits = RecentHits()
+        self._feelers: Feelers | None = None
+        self._felt: Felt | None = None
         self.frames_logged = 0
         self.frame: Frame | None = None
         self._log: RerunLog
@@ -202,11 +208,23 @@ class _View:
             self._bounds = with_margin(self.shapes.bounds())
         self._epoch = state.frame.epoch
         self._hits.clear()
+        self._begin_feelers()
         self._stream, sinks = self._outputs.open_stream(self._room.name, state.frame.epoch)
         self._log = RerunLog(self._stream, self._bounds, self._options.velocities, self._options.contacts)
         # The blueprint goes with the sinks, which what was logged before waits for.
         self._stream.set_sinks(*sinks, default_blueprint=self._log.blueprint(state.info))
         self._stream.send_recording_name(f"{self._room.name} · epoch {state.frame.epoch}")
+
+    def _begin_feelers(self) -> None:
+        self._feelers = self._felt = None
+        if self._options.feel is None or self._bounds is None:
+            return
+        try:
+            self._feelers = Feelers(self._room, self._options.feel, self._bounds[2] - self._bounds[0])
+        except UnknownBody:
+            if self.frames_logged == 0:
+                raise
+            # It was spawned, and a reset took it away.
 
     def _log_frame(self, frame: Frame) -> None:
         self._log.set_time(frame)
@@ -214,6 +232,9 @@ class _View:
         if self._options.contacts:
             self._contacts = self._room.contacts()
             self._log.log_contacts(self._contacts)
+        if self._feelers is not None:
+            self._felt = self._feelers.feel(frame)
+            self._log.log_felt(self._felt)
         self._log.log_plots(frame)
         self._log_events(frame.tick)
         self.frame = frame
@@ -245,7 +266,7 @@ class _View:
         assert self.frame is not None
         draw_picture(
             self.shapes, path, bounds=self._bounds, velocities=self._options.velocities, contacts=self._contacts,
-            hits=self._hits,
+            hits=self._hits, felt=self._felt,
             caption=f"{self._room.name} · tick {self.frame.tick} · {self.frame.sim_time:.2f} s",
         )  # fmt: skip
 
