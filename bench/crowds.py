@@ -25,8 +25,8 @@ def _walls(scene: Scene, half_width: float, height: float, *, closed: bool = Fal
 
 
 def pile(count: int, steps: int = 600) -> Scene:
-    """Boxes in a bin, laid like bricks with small gaps, so that each comes to lie on two. They are at most ROWS_MAX high,
-    or the ones below would be pressed together and a body of a large pile would touch more than one of a small pile.
+    """Boxes in a bin, laid like bricks with small gaps, so that each comes to lie on two. They are at most ROWS_MAX
+    high, or the lowest would be pressed together and a body of a large pile would touch more than one of a small pile.
     They come to rest within two seconds; none may sleep."""
     scene = Scene(f"pile_{count}", steps, sleep=False)
     chance = random.Random(SEED)
