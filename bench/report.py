@@ -172,7 +172,8 @@ def rectangles_page(stages: Sequence[Record], errors: dict[str, list[Record]]) -
         "",
         "The question of the thesis that Urto began with, for its method and for each step towards Urto's. Rectangles "
         "fall into a box and bounce, none sleeps; the figure is where the mean step takes a sixtieth of a second of "
-        "one processor. Urto's implementation of the thesis's method always looks at bounds first. The errors are "
+        "one processor, or of several where the method says so. Urto's implementation of the thesis's method always "
+        "looks at bounds first. The errors are "
         "those of [the hard cases](../accuracy.md) by the same method.",
         "",
         *pages.rectangles_page(stages, errors),

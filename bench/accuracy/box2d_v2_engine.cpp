@@ -59,6 +59,28 @@ class Box2dV2 : public Simulator {
     bodies_.push_back(body);
   }
 
+  void join(std::size_t a, std::size_t b, const JointDef& def) override {
+    if (is_plain_hinge(def)) {
+      b2RevoluteJointDef made;
+      place(made, a, b, def);
+      made.localAnchorA = vec(def.anchor_a);
+      made.localAnchorB = vec(def.anchor_b);
+      world_.CreateJoint(&made);
+    } else {
+      const DistanceJoint& rod = spring_of(def);
+      b2DistanceJointDef made;
+      place(made, a, b, def);
+      made.localAnchorA = vec(def.anchor_a);
+      made.localAnchorB = vec(def.anchor_b);
+      made.length = static_cast<float>(*rod.length);
+      made.minLength = 0;
+      made.maxLength = b2_maxFloat;
+      b2LinearStiffness(made.stiffness, made.damping, static_cast<float>(rod.spring->hertz),
+                        static_cast<float>(rod.spring->damping_ratio), made.bodyA, made.bodyB);
+      world_.CreateJoint(&made);
+    }
+  }
+
   void step() override {
     const int n = static_cast<int>(settings_.sub_steps);
     world_.Step(static_cast<float>(settings_.time_step), 2 * n, std::max(1, 3 * n / 4));
@@ -99,6 +121,12 @@ class Box2dV2 : public Simulator {
     return const_cast<b2Fixture*>(fixture)->GetBody()->GetUserData().pointer;
   }
 
+  void place(b2JointDef& made, std::size_t a, std::size_t b, const JointDef& def) const {
+    made.bodyA = bodies_[a];
+    made.bodyB = bodies_[b];
+    made.collideConnected = def.collide_connected;
+  }
+
   void add_shape(b2Body& body, const ShapeDef& shape) {
     b2FixtureDef def;
     def.density = static_cast<float>(shape.material.density);
@@ -135,8 +163,8 @@ std::string engine_version() {
   return std::to_string(b2_version.major) + "." + std::to_string(b2_version.minor) + "." +
          std::to_string(b2_version.revision);
 }
-std::unique_ptr<Simulator> make_engine(const WorldSettings& settings) {
-  refuse_what_peers_lack(settings);
+std::unique_ptr<Simulator> make_engine(const WorldSettings& settings, unsigned threads) {
+  refuse_what_peers_lack(settings, threads);
   if (settings.precision == Precision::kDouble) throw Lacks("double precision");
   return std::make_unique<Box2dV2>(settings);
 }

@@ -60,6 +60,23 @@ class Box2dV3 : public Simulator {
     ids_.push_back(id);
   }
 
+  void join(std::size_t a, std::size_t b, const JointDef& def) override {
+    if (is_plain_hinge(def)) {
+      b2RevoluteJointDef made = b2DefaultRevoluteJointDef();
+      place(made.base, a, b, def);
+      b2CreateRevoluteJoint(world_, &made);
+    } else {
+      const DistanceJoint& rod = spring_of(def);
+      b2DistanceJointDef made = b2DefaultDistanceJointDef();
+      place(made.base, a, b, def);
+      made.length = static_cast<float>(*rod.length);
+      made.enableSpring = true;
+      made.hertz = static_cast<float>(rod.spring->hertz);
+      made.dampingRatio = static_cast<float>(rod.spring->damping_ratio);
+      b2CreateDistanceJoint(world_, &made);
+    }
+  }
+
   void step() override {
     friction_mixing = settings_.friction_mixing;
     restitution_mixing = settings_.restitution_mixing;
@@ -104,6 +121,14 @@ class Box2dV3 : public Simulator {
  private:
   std::size_t number_of(b2ShapeId shape) const { return numbers_.at(b2StoreBodyId(b2Shape_GetBody(shape))); }
 
+  void place(b2JointDef& base, std::size_t a, std::size_t b, const JointDef& def) const {
+    base.bodyIdA = ids_[a];
+    base.bodyIdB = ids_[b];
+    base.localFrameA.p = vec(def.anchor_a);
+    base.localFrameB.p = vec(def.anchor_b);
+    base.collideConnected = def.collide_connected;
+  }
+
   void add_shape(b2BodyId body, const ShapeDef& shape) {
     b2ShapeDef def = b2DefaultShapeDef();
     def.density = static_cast<float>(shape.material.density);
@@ -137,8 +162,8 @@ std::string engine_version() {
   const b2Version version = b2GetVersion();
   return std::to_string(version.major) + "." + std::to_string(version.minor) + "." + std::to_string(version.revision);
 }
-std::unique_ptr<Simulator> make_engine(const WorldSettings& settings) {
-  refuse_what_peers_lack(settings);
+std::unique_ptr<Simulator> make_engine(const WorldSettings& settings, unsigned threads) {
+  refuse_what_peers_lack(settings, threads);
   if (settings.precision == Precision::kDouble) throw Lacks("double precision");
   return std::make_unique<Box2dV3>(settings);
 }

@@ -27,6 +27,10 @@ class Chipmunk : public Simulator {
   }
 
   ~Chipmunk() override {
+    for (cpConstraint* joint : joints_) {
+      cpSpaceRemoveConstraint(space_, joint);
+      cpConstraintFree(joint);
+    }
     for (cpShape* shape : shapes_) {
       cpSpaceRemoveShape(space_, shape);
       cpShapeFree(shape);
@@ -53,6 +57,22 @@ class Chipmunk : public Simulator {
       cpBodySetAngularVelocity(body, def.angular_velocity);
     }
     cpSpaceReindexShapesForBody(space_, body);
+  }
+
+  void join(std::size_t a, std::size_t b, const JointDef& def) override {
+    cpConstraint* made = nullptr;
+    if (is_plain_hinge(def)) {
+      made = cpPivotJointNew2(bodies_[a], bodies_[b], vec(def.anchor_a), vec(def.anchor_b));
+    } else {
+      const DistanceJoint& rod = spring_of(def);
+      const double mass = 1 / (inverse_mass(bodies_[a]) + inverse_mass(bodies_[b]));
+      const double rate = 2 * kPi * rod.spring->hertz;  // rad/s
+      made = cpDampedSpringNew(bodies_[a], bodies_[b], vec(def.anchor_a), vec(def.anchor_b), *rod.length,
+                               mass * rate * rate, 2 * mass * rod.spring->damping_ratio * rate);
+    }
+    cpConstraintSetCollideBodies(made, def.collide_connected ? cpTrue : cpFalse);
+    cpSpaceAddConstraint(space_, made);
+    joints_.push_back(made);
   }
 
   void step() override {
@@ -106,6 +126,10 @@ class Chipmunk : public Simulator {
  private:
   static std::size_t number_of(const cpBody* body) { return reinterpret_cast<std::size_t>(cpBodyGetUserData(body)); }
 
+  static double inverse_mass(cpBody* body) {
+    return cpBodyGetType(body) == CP_BODY_TYPE_DYNAMIC ? 1 / cpBodyGetMass(body) : 0;
+  }
+
   void mix(cpArbiter* arbiter) const {
     cpShape *a = nullptr, *b = nullptr;
     cpArbiterGetShapes(arbiter, &a, &b);
@@ -153,14 +177,15 @@ class Chipmunk : public Simulator {
   cpSpace* space_;
   std::vector<cpBody*> bodies_;
   std::vector<cpShape*> shapes_;
+  std::vector<cpConstraint*> joints_;
 };
 
 }  // namespace
 
 std::string engine_name() { return "chipmunk"; }
 std::string engine_version() { return cpVersionString; }
-std::unique_ptr<Simulator> make_engine(const WorldSettings& settings) {
-  refuse_what_peers_lack(settings);
+std::unique_ptr<Simulator> make_engine(const WorldSettings& settings, unsigned threads) {
+  refuse_what_peers_lack(settings, threads);
   return std::make_unique<Chipmunk>(settings);
 }
 

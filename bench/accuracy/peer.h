@@ -10,13 +10,25 @@
 
 namespace urto::accuracy {
 
-// What no peer has. Throws Lacks.
-inline void refuse_what_peers_lack(const WorldSettings& settings) {
+// What no peer has, or is not asked for. Throws Lacks.
+inline void refuse_what_peers_lack(const WorldSettings& settings, unsigned threads) {
+  if (threads > 1) throw Lacks("cases on several threads");
   if (!settings.fields.empty()) throw Lacks("force fields");
   if (settings.integrator != Integrator::kSemiImplicitEuler) throw Lacks("other integrators");
   if (settings.solver != SolverKind::kSoftStep) throw Lacks("other solvers");
   if (settings.broad_phase != BroadPhaseKind::kAuto) throw Lacks("other broad phases");
   if (settings.narrow_phase != NarrowPhaseKind::kSat) throw Lacks("other narrow phases");
+}
+
+// The joints of the cases: a hinge without limits, motor and spring, and a spring of a given length.
+inline bool is_plain_hinge(const JointDef& def) {
+  const auto* hinge = std::get_if<RevoluteJoint>(&def.geometry);
+  return hinge && !hinge->limits && !hinge->motor && !hinge->spring;
+}
+inline const DistanceJoint& spring_of(const JointDef& def) {
+  const auto* rod = std::get_if<DistanceJoint>(&def.geometry);
+  if (!rod || !rod->length || !rod->spring || rod->limits) throw Lacks("joints of other kinds");
+  return *rod;
 }
 
 inline double mixed(Mixing rule, double a, double b) {

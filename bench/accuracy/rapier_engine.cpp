@@ -20,6 +20,9 @@ void rapier_add_body(RapierWorld* world, std::uint32_t kind, RapierState state, 
 void rapier_add_shape(RapierWorld* world, const float* points, std::uint32_t count, float radius, float density,
                       float friction, float restitution, std::uint32_t friction_rule, std::uint32_t restitution_rule);
 void rapier_set_mass(RapierWorld* world, float mass, float inertia);
+// A hinge at the bodies' points (ax, ay) and (bx, by).
+void rapier_add_hinge(RapierWorld* world, std::uint32_t a, std::uint32_t b, float ax, float ay, float bx, float by,
+                      bool collide);
 void rapier_step(RapierWorld* world);
 RapierState rapier_state(const RapierWorld* world, std::uint32_t number);
 void rapier_set_velocity(RapierWorld* world, std::uint32_t number, float vx, float vy, float w);
@@ -47,6 +50,11 @@ class Rapier : public Simulator {
     rapier_add_body(world_, static_cast<std::uint32_t>(def.type), state, is_bullet(def, settings_), settings_.sleeping);
     for (const ShapeDef& shape : def.shapes) add_shape(shape);
     if (def.mass && def.type == BodyType::kDynamic) rapier_set_mass(world_, f(*def.mass), f(inertia_of(def)));
+  }
+  void join(std::size_t a, std::size_t b, const JointDef& def) override {
+    if (!is_plain_hinge(def)) throw Lacks("springs by frequency");
+    rapier_add_hinge(world_, static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), f(def.anchor_a.x()),
+                     f(def.anchor_a.y()), f(def.anchor_b.x()), f(def.anchor_b.y()), def.collide_connected);
   }
   void step() override { rapier_step(world_); }
   BodyState body(std::size_t number) const override {
@@ -98,8 +106,8 @@ class Rapier : public Simulator {
 
 std::string engine_name() { return "rapier"; }
 std::string engine_version() { return rapier_version(); }
-std::unique_ptr<Simulator> make_engine(const WorldSettings& settings) {
-  refuse_what_peers_lack(settings);
+std::unique_ptr<Simulator> make_engine(const WorldSettings& settings, unsigned threads) {
+  refuse_what_peers_lack(settings, threads);
   if (settings.precision == Precision::kDouble) throw Lacks("double precision");
   return std::make_unique<Rapier>(settings);
 }

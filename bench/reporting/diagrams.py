@@ -149,7 +149,7 @@ def draw_rectangles(path: Path, stages: Sequence[Record], frame_ms: float) -> No
     axes.axhline(frame_ms, color="black", linewidth=0.8)
     axes.text(25, frame_ms * 1.1, "a frame at 60 Hz", fontsize=8)
     axes.set_xlabel("rectangles")
-    axes.set_ylabel("processor milliseconds a step")
+    axes.set_ylabel("milliseconds a step, of the processor but for several threads")
     axes.grid(True, which="both", alpha=0.2)
     axes.legend(fontsize=8)
     save_figure(figure, path)

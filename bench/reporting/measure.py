@@ -125,6 +125,7 @@ def measure_all(programs: dict[str, Path], points: Sequence[Point], effort: Effo
 def _step_ms(program: Path, count: int, stage: Stage, effort: Effort) -> Record:
     command = [str(program), "--rectangles", str(count), stage.method, "--steps", str(effort.steps)]
     command += ["--simd", stage.simd] if stage.simd else []
+    command += ["--threads", str(stage.threads)] if stage.threads > 1 else []
     best: Record = {"failed": "never ran"}
     for _ in range(2):
         record = _run(command, 120)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -109,6 +110,7 @@ class Stage:
     name: str
     method: str
     simd: str = ""
+    threads: int = 1  # several are measured by the wall clock
 
 
 _THESIS = f"{DEFAULT},solver=thesis,sub_steps=60,continuous=off"
@@ -121,6 +123,11 @@ STAGES = (
     Stage("the same with the BVH, scalar", f"{DEFAULT},broad_phase=bvh,continuous=off", "SCALAR"),
     Stage("the same with the machine's best SIMD", f"{DEFAULT},broad_phase=bvh,continuous=off"),
     Stage("Urto's default: continuous collision too", DEFAULT),
+    *(
+        Stage(f"the same on {threads} threads, by the wall clock", DEFAULT, threads=threads)
+        for threads in (2, 4, 8)
+        if threads <= (os.cpu_count() or 1)
+    ),
 )
 # Cases that tell the error of a stage.
 STAGE_CASES = ("stack_sinks_10", "elastic_apex_box", "stop_distance_5", "mass_ratio_1e2")

@@ -52,6 +52,7 @@ void add_stack_cases(std::vector<Case>& cases);
 void add_ratio_cases(std::vector<Case>& cases);
 void add_structure_cases(std::vector<Case>& cases);
 void add_overlap_cases(std::vector<Case>& cases);
+void add_joint_cases(std::vector<Case>& cases);
 void add_symmetry_cases(std::vector<Case>& cases);
 
 }  // namespace urto::accuracy

@@ -8,6 +8,7 @@ namespace urto::accuracy {
 
 std::string engine_name();
 std::string engine_version();
-std::unique_ptr<Simulator> make_engine(const WorldSettings& settings);
+// Throws Lacks, also if the program's engine is not measured on several threads.
+std::unique_ptr<Simulator> make_engine(const WorldSettings& settings, unsigned threads);
 
 }  // namespace urto::accuracy

@@ -9,6 +9,7 @@ Run::Run(Lab& lab, const Scene& scene)
     : lab_(lab), settings_(lab.method_.applied_to(scene.settings)), bodies_(scene.bodies) {
   simulator_ = lab.engine_(settings_);
   for (const BodyDef& def : scene.bodies) simulator_->add(def);
+  for (const Scene::Link& link : scene.links) simulator_->join(link.a, link.b, link.def);
 }
 
 void Run::steps(long count) {

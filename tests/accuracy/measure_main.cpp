@@ -1,10 +1,15 @@
 // Measures a case in one engine and prints a line of JSON.
 //
-//   accuracy_ENGINE --list                                the cases: row, names, levels
-//   accuracy_ENGINE CASE METHOD [--runs N] [--budget S]   the error, and the least CPU time of N runs, fewer after S
-//   seconds accuracy_ENGINE --rectangles N METHOD --steps N       what a step with so many rectangles takes, and how
-//   they overlap accuracy_ENGINE --check                               every level: one line each of those that are not
-//   met … --simd NAME                                         the instruction set, e.g. AVX2 (Urto)
+//   accuracy_ENGINE --list
+//       the cases: row, names, levels
+//   accuracy_ENGINE CASE METHOD [--runs N] [--budget S]
+//       the error, and the least CPU time of N runs, fewer after S seconds
+//   accuracy_ENGINE --rectangles N METHOD --steps N [--threads N]
+//       what a step with so many rectangles takes (on several threads by the wall clock), and how they overlap
+//   accuracy_ENGINE --check [--long]
+//       every level: one line each of those that are not met
+//   … --simd NAME
+//       the instruction set, e.g. AVX2 (Urto)
 
 #include <time.h>
 
@@ -35,6 +40,14 @@ double cpu_seconds() {
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
+
+double wall_seconds() {
+  timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+std::unique_ptr<Simulator> on_one_thread(const WorldSettings& settings) { return make_engine(settings, 1); }
 
 std::string quoted(const std::string& text) {
   std::string out(1, '"');
@@ -85,7 +98,7 @@ void measure(const Case& a_case, const Method& method, const Effort& effort) {
   try {
     while (runs == 0 || (runs < effort.runs && cpu_seconds() - start < effort.budget_s)) {
       ++runs;
-      Lab lab(make_engine, method, cpu_seconds);
+      Lab lab(on_one_thread, method, cpu_seconds);
       error = error_of(a_case, lab);
       cost = std::min(cost, lab.cpu_seconds() / lab.simulated_seconds());
     }
@@ -98,8 +111,9 @@ void measure(const Case& a_case, const Method& method, const Effort& effort) {
 }
 
 // Overlap: of the deepest pair, the mean of four looks over the second half.
-void measure_rectangles(int count, const Method& method, int steps) {
-  Lab lab(make_engine, method, cpu_seconds);
+void measure_rectangles(int count, const Method& method, int steps, unsigned threads) {
+  const auto engine = [threads](const WorldSettings& settings) { return make_engine(settings, threads); };
+  Lab lab(engine, method, threads > 1 ? wall_seconds : cpu_seconds);
   Run run(lab, rectangles(count));
   run.steps(steps / 2);
   double overlap = 0;
@@ -120,7 +134,7 @@ void measure_features(int runs, int steps) {
     double without_ms = std::numeric_limits<double>::infinity(), idle_ms = without_ms;
     for (int i = 0; i < runs; ++i) {
       for (const bool idle : {false, true}) {
-        Lab lab(make_engine, Method{}, cpu_seconds);
+        Lab lab(on_one_thread, Method{}, cpu_seconds);
         Run run(lab, idle ? each.idle : each.without);
         run.steps(steps);
         double& least = idle ? idle_ms : without_ms;
@@ -138,7 +152,7 @@ void check(bool with_long) {
     for (const Level& level : each.levels) {
       if (each.is_long && !with_long) continue;
       const double start = cpu_seconds();
-      Lab lab(make_engine, method_of(level.profile));
+      Lab lab(on_one_thread, method_of(level.profile));
       double error = std::numeric_limits<double>::infinity();
       try {
         error = error_of(each, lab);
@@ -166,6 +180,7 @@ struct Arguments {
   std::vector<std::string> names;
   Effort effort;
   int rectangles = 0, steps = 240;
+  unsigned threads = 1;
   bool list = false, check = false, with_long = false, replay = false, features = false;
 };
 
@@ -180,6 +195,8 @@ Arguments parse(const std::vector<std::string>& words) {
       out.rectangles = std::stoi(words.at(++i));
     } else if (words[i] == "--steps") {
       out.steps = std::stoi(words.at(++i));
+    } else if (words[i] == "--threads") {
+      out.threads = static_cast<unsigned>(std::stoul(words.at(++i)));
     } else if (words[i] == "--simd") {
       choose_simd(words.at(++i));
     } else if (words[i] == "--list") {
@@ -209,7 +226,7 @@ int run(const std::vector<std::string>& words) {
   } else if (arguments.features) {
     measure_features(arguments.effort.runs, arguments.steps);
   } else if (arguments.rectangles > 0 && names.size() == 1) {
-    measure_rectangles(arguments.rectangles, method_from(names[0]), arguments.steps);
+    measure_rectangles(arguments.rectangles, method_from(names[0]), arguments.steps, arguments.threads);
   } else if (names.size() == 2 && find_case(names[0]) && arguments.replay) {
     std::puts(replay(*find_case(names[0]), method_from(names[1]), arguments.steps).c_str());
   } else if (names.size() == 2 && find_case(names[0])) {

@@ -20,6 +20,7 @@ std::vector<Case> collect() {
   add_ratio_cases(cases);
   add_structure_cases(cases);
   add_overlap_cases(cases);
+  add_joint_cases(cases);
   add_symmetry_cases(cases);
   return cases;
 }

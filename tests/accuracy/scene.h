@@ -16,8 +16,13 @@ inline constexpr double kGravity = 9.81;  // m/s², down
 
 // Gravity, 1/60 s and 4 sub-steps unless a case says otherwise. Nothing sleeps: a sleeping body has no error.
 struct Scene {
+  struct Link {
+    std::size_t a = 0, b = 0;  // numbers of the bodies
+    JointDef def;              // without them
+  };
   WorldSettings settings;
   std::vector<BodyDef> bodies;
+  std::vector<Link> links;
 
   Scene() { settings.sleeping = false; }
   std::size_t add(const BodyDef& def) {

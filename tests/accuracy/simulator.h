@@ -34,6 +34,8 @@ class Simulator {
   virtual ~Simulator() = default;
   // Bodies are numbered from 0 in the order in which they come.
   virtual void add(const BodyDef& def) = 0;
+  // Between two bodies that are there, by their numbers. Throws Lacks.
+  virtual void join(std::size_t, std::size_t, const JointDef&) { throw Lacks("joints"); }
   virtual void step() = 0;
   virtual BodyState body(std::size_t number) const = 0;
   virtual void set_velocity(std::size_t number, const Vec2& velocity, double angular_velocity) = 0;

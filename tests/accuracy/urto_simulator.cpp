@@ -16,12 +16,20 @@ T expect(Expected<T> result) {
 
 class UrtoSimulator : public Simulator {
  public:
-  explicit UrtoSimulator(const WorldSettings& settings) : world_(expect(World::create(settings))) {}
+  UrtoSimulator(const WorldSettings& settings, unsigned threads)
+      : world_(expect(World::create(settings, nullptr, threads))) {}
 
   void add(const BodyDef& def) override {
     const BodyId id = expect(world_->add_body(def));
     numbers_.emplace_back(id, ids_.size());
     ids_.push_back(id);
+  }
+  void join(std::size_t a, std::size_t b, const JointDef& def) override {
+    if (world_->settings().solver != SolverKind::kSoftStep) throw Lacks("joints in this solver");
+    JointDef joint = def;
+    joint.body_a = ids_[a];
+    joint.body_b = ids_[b];
+    expect(world_->add_joint(joint));
   }
   void step() override { world_->step(); }
   BodyState body(std::size_t number) const override { return *world_->body(ids_[number]); }
@@ -48,8 +56,10 @@ class UrtoSimulator : public Simulator {
 
 }  // namespace
 
-std::unique_ptr<Simulator> make_urto(const WorldSettings& settings) {
-  return std::make_unique<UrtoSimulator>(settings);
+std::unique_ptr<Simulator> make_urto(const WorldSettings& settings) { return make_urto_on(1, settings); }
+
+std::unique_ptr<Simulator> make_urto_on(unsigned threads, const WorldSettings& settings) {
+  return std::make_unique<UrtoSimulator>(settings, threads);
 }
 
 }  // namespace urto::accuracy

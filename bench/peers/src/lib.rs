@@ -115,6 +115,25 @@ pub extern "C" fn rapier_set_mass(this: &mut RapierWorld, mass: f32, inertia: f3
 }
 
 #[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)]
+pub extern "C" fn rapier_add_hinge(
+    this: &mut RapierWorld,
+    a: u32,
+    b: u32,
+    ax: f32,
+    ay: f32,
+    bx: f32,
+    by: f32,
+    collide: bool,
+) {
+    let joint = RevoluteJointBuilder::new()
+        .local_anchor1(Vector::new(ax, ay))
+        .local_anchor2(Vector::new(bx, by))
+        .contacts_enabled(collide);
+    this.world.impulse_joints.insert(this.handles[a as usize], this.handles[b as usize], joint, true);
+}
+
+#[unsafe(no_mangle)]
 pub extern "C" fn rapier_step(this: &mut RapierWorld) {
     this.world.step();
 }
