@@ -10,7 +10,7 @@ enum ContactFlag : std::uint32_t {
   kContactAlive = 1u << 0,
   kContactTouching = 1u << 1,  // has begun and not ended
   kContactSensor = 1u << 2,
-  kContactStruck = 1u << 3,  // a hit was reported, and the blow goes on (hits.h)
+  kContactStruck = 1u << 3,  // has been struck; the bits from the 8th on say when (hits.cpp)
 };
 
 template <class S>

@@ -177,7 +177,6 @@ void release_parted(WorldData<S>& world, std::uint32_t slot) {
   c.count = 0;
   c.nx = c.ny = S(0);
   c.points[0] = c.points[1] = ManifoldPoint<S>{};
-  c.flags &= ~kContactStruck;
   if (!c.touching()) return;
   c.flags ^= kContactTouching;
   world.events.push_back(end_event(world, c));

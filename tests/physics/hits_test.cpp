@@ -139,6 +139,37 @@ TEST_P(HitsTest, TheyDoNotMoveAnything) {
   EXPECT_GT(hits, 30u);
 }
 
+TEST_P(HitsTest, TheSameInTheSameOrderOnTwoThreads) {
+  const std::uint64_t seed = 6;
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> spread(-6, 6);
+  const auto one = std::move(*World::create(settings(0.5), nullptr, 1));
+  const auto two = std::move(*World::create(settings(0.5), nullptr, 2));
+  for (World* world : {one.get(), two.get()}) add(*world, floor_body());
+  for (int i = 0; i < 60; ++i) {
+    const BodyDef def = box_body(spread(random), 8 + spread(random), 0.5, 0.5);
+    for (World* world : {one.get(), two.get()}) add(*world, def);
+  }
+  std::size_t count = 0;
+  for (int i = 0; i < 90; ++i) {
+    one->step();
+    two->step();
+    const auto a = hits_of(*one), b = hits_of(*two);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      EXPECT_EQ(a[k].body_a, b[k].body_a);
+      EXPECT_EQ(a[k].body_b, b[k].body_b);
+      EXPECT_EQ(a[k].point, b[k].point);
+      EXPECT_EQ(a[k].approach_speed, b[k].approach_speed);
+      EXPECT_GT(a[k].approach_speed, 0.5);
+      EXPECT_NEAR(a[k].normal.norm(), 1, 1e-5);
+    }
+    count += a.size();
+  }
+  EXPECT_GT(count, 60u);
+}
+
 TEST_P(HitsTest, TheSameAfterARestoreInTheMiddleOfABlow) {
   for (int at = 50; at < 70; ++at) {
     SCOPED_TRACE(at);
