@@ -75,7 +75,8 @@ def test_urto_may_not_differ_between_widths_and_threads_but_peers_may():
 
 
 def test_only_the_widest_builds_run_on_several_threads():
-    assert engines.widest(["urto", "urto-avx2", "box2d-sse2", "box2d-avx2", "rapier"]) == ["urto", "box2d-avx2", "rapier"]
+    present = ["urto", "urto-avx2", "box2d-sse2", "box2d-avx2", "rapier"]
+    assert engines.widest(present) == ["urto", "box2d-avx2", "rapier"]
 
 
 def scaled(time_of):
