@@ -15,24 +15,66 @@ bool may_touch(const WorldData<S>& world, const Shape<S>& a, const Shape<S>& b) 
   return a.sensor() || b.sensor();  // a sensor also sees kinematic bodies
 }
 
+// Boxes and circles need no outline.
+template <class S>
+bool has_outline(const Shape<S>& shape) {
+  return shape.shape_kind() != ShapeKind::kBox && shape.shape_kind() != ShapeKind::kCircle;
+}
+
+template <class S>
+Aabb<S> bounds_around(const WorldData<S>& world, Proxy proxy, const Vec<S>& center, const Rotation<S>& axis) {
+  const Place<S>& place = world.places[proxy];
+  Vec<S> extent;
+  if (world.shapes[proxy].shape_kind() == ShapeKind::kBox) {
+    const S c = absolute(axis.c), s = absolute(axis.s);
+    extent = Vec<S>(c * place.half_width + s * place.half_height, c * place.half_height + s * place.half_width);
+  } else {
+    extent = Vec<S>::Constant(world.convexes[proxy].radius);
+  }
+  return {center - extent, center + extent};
+}
+
+// Of a shape at the end of its body's motion.
+template <class S>
+Aabb<S> bounds_after_motion(const WorldData<S>& world, Proxy proxy) {
+  const Shape<S>& shape = world.shapes[proxy];
+  const Body<S>& body = world.bodies[shape.body];
+  const Motion<S>& m = world.motions[shape.body];
+  const Rotation<S> turn{m.c, m.s};
+  const Vec<S> center(body.x + m.dx, body.y + m.dy);
+  if (has_outline(shape)) {
+    const Rotation<S> q = turn.times(body.rotation());
+    return world.convexes[proxy].bounds({center - q.apply(body.local_center()), q});
+  }
+  const Place<S>& place = world.places[proxy];
+  return bounds_around<S>(world, proxy, center + turn.apply(Vec<S>(place.offset_x, place.offset_y)),
+                          turn.times({place.c, place.s}));
+}
+
 }  // namespace
 
 template <class S>
 Aabb<S> tight_bounds(const WorldData<S>& world, Proxy proxy) {
   const Shape<S>& shape = world.shapes[proxy];
+  if (has_outline(shape)) return world.convexes[proxy].bounds(world.bodies[shape.body].pose());
   const Place<S>& place = world.places[proxy];
-  const ShapeKind kind = shape.shape_kind();
-  if (kind != ShapeKind::kBox && kind != ShapeKind::kCircle)
-    return world.convexes[proxy].bounds(world.bodies[shape.body].pose());
-  S ex, ey;
-  if (kind == ShapeKind::kBox) {
-    const S ax = absolute(place.c), ay = absolute(place.s);
-    ex = ax * place.half_width + ay * place.half_height;
-    ey = ay * place.half_width + ax * place.half_height;
-  } else {
-    ex = ey = world.convexes[proxy].radius;
+  return bounds_around<S>(world, proxy, Vec<S>(place.x, place.y), {place.c, place.s});
+}
+
+template <class S>
+Aabb<S> way_bounds(const WorldData<S>& world, Proxy proxy) {
+  const std::uint32_t slot = world.shapes[proxy].body;
+  const Body<S>& body = world.bodies[slot];
+  const Motion<S>& m = world.motions[slot];
+  const S turn = absolute(m.da);
+  if (turn > S(1)) {
+    const Vec<S> from = body.center(), to = from + Vec<S>(m.dx, m.dy);
+    return Aabb<S>{from, from}.merged(Aabb<S>{to, to}).expanded(body.extent_max);
   }
-  return {Vec<S>(place.x - ex, place.y - ey), Vec<S>(place.x + ex, place.y + ey)};
+  // A point on an arc is no further from the chord than r(1 − cos(turn/2)).
+  return tight_bounds(world, proxy)
+      .merged(bounds_after_motion(world, proxy))
+      .expanded(S(0.125) * turn * turn * body.extent_max);
 }
 
 template <class S>
@@ -92,6 +134,7 @@ void update_broad_phase(WorldData<S>& world) {
 #define URTO_INSTANTIATE(S)                                                     \
   template Aabb<S> tight_bounds(const WorldData<S>&, Proxy);                    \
   template Aabb<S> swept_bounds(const WorldData<S>&, Proxy);                    \
+  template Aabb<S> way_bounds(const WorldData<S>&, Proxy);                      \
   template void mark_moved(WorldData<S>&, Proxy);                               \
   template void follow_body(WorldData<S>&, std::uint32_t, std::vector<Proxy>&); \
   template void refresh_bounds(WorldData<S>&, Proxy);                           \

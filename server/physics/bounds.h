@@ -14,6 +14,11 @@ Aabb<S> tight_bounds(const WorldData<S>& world, Proxy proxy);
 template <class S>
 Aabb<S> swept_bounds(const WorldData<S>& world, Proxy proxy);
 
+// Bounds of all that the shape passes over when its body moves by the motion that the solver has given it. Places must
+// still be those of the start of the step.
+template <class S>
+Aabb<S> way_bounds(const WorldData<S>& world, Proxy proxy);
+
 // Sets a body's places after it moved and appends its proxies that left their fat bounds to `left`. Bodies may be
 // followed side by side.
 template <class S>

@@ -62,6 +62,10 @@ inline constexpr double kFastFraction = 0.75;
 // Distance at which a swept body stops before what it hits, as a share of its speculative reach.
 inline constexpr double kImpactTargetFraction = 0.25;
 inline constexpr double kImpactToleranceFraction = 0.05;
+// So often may a body bounce, or be pushed by a kinematic one, within a step.
+inline constexpr unsigned kImpactsMax = 8;
+// A body that gives way for the second time in a step stands still for the rest of it.
+inline constexpr unsigned kWaysMax = 2;
 
 // Nearer to an attractor's centre than this its pull grows no more: at the centre itself the law has no finite value.
 inline constexpr double kAttractionDistanceMin = 1e-3;  // m
@@ -84,5 +88,6 @@ inline constexpr double kFacePreference = 1e-4;  // m
 inline constexpr unsigned kBodiesPerShare = 64;
 inline constexpr unsigned kBlocksPerShare = 4;
 inline constexpr unsigned kPairsPerShare = 256;
+inline constexpr unsigned kImpactsPerShare = 8;
 
 }  // namespace urto

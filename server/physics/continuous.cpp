@@ -3,107 +3,198 @@
 #include <algorithm>
 
 #include "physics/bounds.h"
-#include "physics/joint_graph.h"
+#include "physics/constants.h"
+#include "physics/contact_graph.h"
+#include "physics/course.h"
+#include "physics/impact.h"
+#include "physics/narrow_phase/closing_kernels.h"
 #include "physics/narrow_phase/gjk.h"
-#include "physics/narrow_phase/time_of_impact.h"
+#include "physics/narrow_phase/manifold.h"
 
 namespace urto {
 namespace {
 
-// When a pair of shapes, at least one of a fast body, first touches; computed while its bodies had these stops.
+// m, how far the body's farthest point comes in the step, at most.
+template <class S>
+S way_of(const Body<S>& body, const Motion<S>& m) {
+  return std::sqrt(m.dx * m.dx + m.dy * m.dy) + absolute(m.da) * body.extent_max;
+}
+
+// A dynamic body by its own thickness; a kinematic one may be too fast for whatever it meets.
+template <class S>
+bool moves_fast(const Body<S>& body, const Motion<S>& m) {
+  return way_of(body, m) > (body.dynamic() ? S(kFastFraction) * body.extent_min : S(0));
+}
+
+// When a pair first touches; computed when its bodies had had so many impacts.
 template <class S>
 struct ImpactEvent {
   S time;
-  S stop_low, stop_high;
+  std::uint32_t contact;
   Proxy low, high;
+  std::uint32_t impacts_low, impacts_high;
 };
 
 template <class S>
 class ContinuousCollision {
  public:
-  explicit ContinuousCollision(WorldData<S>& world) : world_(world) {}
+  explicit ContinuousCollision(WorldData<S>& world) : world_(world), courses_(world) {}
 
   void run() {
-    stretch_bounds();
-    find_impacts();
+    cover_ways();
+    list_closing();
+    find_first_impacts();
     take_impacts_in_order();
-    shorten_motions();
+    change_motions();
   }
 
  private:
-  // The broad phase shall see the whole way of each fast body.
-  void stretch_bounds() {
-    stop_.assign(world_.bodies.size(), S(1));
-    fast_.assign(world_.bodies.size(), 0);
-    for (std::uint32_t slot : world_.scratch.fast) {
-      fast_[slot] = 1;
-      for (Proxy p = world_.bodies[slot].first_shape; p != kNone; p = world_.shapes[p].next) {
-        Shape<S>& shape = world_.shapes[p];
-        shape.fat = way_of(p).expanded(shape.reach + shape.margin);
-        world_.broad_phase->move(p, shape.fat);
-        proxies_.push_back(p);
-      }
-    }
+  // Finding pairs -----------------------------------------------------------------------------------------------
+
+  // Places get the ways of this step. Where one leads out of the bounds that the broad phase knows they are stretched,
+  // so that there is a contact of every pair that may meet.
+  void cover_ways() {
+    std::vector<std::vector<Proxy>>& left = lists_by_member(world_);
+    world_.team->share(world_.awake.size(), kBodiesPerShare, [&](unsigned member, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) note_way(world_.awake[i], left[member]);
+    });
+    for (const std::vector<Proxy>& proxies : left)
+      for (Proxy p : proxies) stretch(p);
+    update_broad_phase(world_);
   }
 
-  // Bounds of a shape over the whole step: of all turns where it turns.
-  Aabb<S> way_of(Proxy p) const {
-    const Shape<S>& shape = world_.shapes[p];
-    const Body<S>& body = world_.bodies[shape.body];
-    const Motion<S>& m = world_.motions[shape.body];
-    const Vec<S> way(m.dx, m.dy);
-    if (m.da == S(0)) {
-      const Aabb<S> box = tight_bounds(world_, p);
-      return box.merged(Aabb<S>{box.lower + way, box.upper + way});
-    }
-    const Vec<S> from = body.center(), to = from + way;
-    return Aabb<S>{from, from}.merged(Aabb<S>{to, to}).expanded(body.extent_max);
-  }
-
-  // The motion of a body between two moments of the step, standing still after its stop.
-  Sweep<S> sweep_of(std::uint32_t slot, S from, S to) const {
+  void note_way(std::uint32_t slot, std::vector<Proxy>& left) {
     const Body<S>& body = world_.bodies[slot];
     const Motion<S>& m = world_.motions[slot];
-    const S t0 = min_of(from, stop_[slot]), t1 = min_of(to, stop_[slot]);
-    Sweep<S> sweep;
-    sweep.local_center = body.local_center();
-    sweep.c0 = Vec<S>(body.x + t0 * m.dx, body.y + t0 * m.dy);
-    sweep.c1 = Vec<S>(body.x + t1 * m.dx, body.y + t1 * m.dy);
-    sweep.angle0 = body.angle + t0 * m.da;
-    sweep.angle1 = body.angle + t1 * m.da;
-    return sweep;
+    const bool fast = moves_fast(body, m);
+    for (Proxy p = body.first_shape; p != kNone; p = world_.shapes[p].next) {
+      Place<S>& place = world_.places[p];
+      place.way_x = m.dx;
+      place.way_y = m.dy;
+      place.turn = absolute(m.da) * body.extent_max;
+      place.fast = fast ? S(1) : S(0);
+      const Shape<S>& shape = world_.shapes[p];
+      if (fast && !shape.sensor() && !shape.fat.contains(way_bounds(world_, p))) left.push_back(p);
+    }
   }
 
-  void find_impacts() {
-    const auto may_pass = [this](Proxy low, Proxy high) {
-      const Shape<S>&a = world_.shapes[low], &b = world_.shapes[high];
-      if (a.sensor() || b.sensor() || a.body == b.body || !filters_touch(a, b)) return false;
-      return close_in_fast(a.body, b.body) && !kept_apart(world_, a.body, b.body);
+  void stretch(Proxy p) {
+    Shape<S>& shape = world_.shapes[p];
+    shape.fat = way_bounds(world_, p).expanded(shape.reach + shape.margin);
+    world_.broad_phase->move(p, shape.fat);
+    mark_moved(world_, p);
+    world_.scratch.stretched.push_back(shape.body);
+  }
+
+  struct Batch {
+    std::uint32_t count = 0;
+    std::uint32_t a[kLanes<S>] = {}, b[kLanes<S>] = {}, contact[kLanes<S>] = {};
+  };
+
+  void flush(Batch& batch, std::vector<std::uint32_t>& out) const {
+    note_closing(batch.a, batch.b, batch.contact, batch.count, out);
+    batch.count = 0;
+  }
+
+  void note_closing(const std::uint32_t* a, const std::uint32_t* b, const std::uint32_t* contacts, std::uint32_t count,
+                    std::vector<std::uint32_t>& out) const {
+    std::uint32_t found = closing_kernels<S>().closing(world_.places.data(), a, b) & ((1u << count) - 1);
+    for (; found != 0; found &= found - 1) out.push_back(contacts[__builtin_ctz(found)]);
+  }
+
+  void list_closing() {
+    std::vector<std::vector<std::uint32_t>>& lists = lists_by_member(world_);
+    world_.team->share(world_.active.size(), kPairsPerShare, [&](unsigned member, std::size_t begin, std::size_t end) {
+      Batch batch;
+      for (std::size_t i = begin; i < end; ++i) {
+        const ActiveContact& active = world_.active[i];
+        if (active.sensor) continue;
+        batch.a[batch.count] = active.shape_a;
+        batch.b[batch.count] = active.shape_b;
+        batch.contact[batch.count] = active.contact;
+        if (++batch.count == static_cast<std::uint32_t>(kLanes<S>)) flush(batch, lists[member]);
+      }
+      flush(batch, lists[member]);
+    });
+    for (const auto& color : world_.touching.colors) {
+      for (std::size_t i = 0; i < color.blocks.size(); ++i) {
+        const ContactBlockRest<S>& rest = color.rest[i];
+        note_closing(rest.shape_a, rest.shape_b, rest.contact, color.blocks[i].count, lists[0]);
+      }
+    }
+    for (const auto& list : lists) closing_.insert(closing_.end(), list.begin(), list.end());
+  }
+
+  void find_first_impacts() {
+    std::vector<S> times(closing_.size(), S(1));
+    world_.team->share(closing_.size(), kImpactsPerShare, [&](unsigned, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) find_impact(world_.contacts[closing_[i]], S(0), times[i]);
+    });
+    for (std::size_t i = 0; i < closing_.size(); ++i)
+      if (times[i] < S(1)) note_impact(closing_[i], times[i]);
+  }
+
+  // Impacts of a pair -------------------------------------------------------------------------------------------
+
+  // m, no point of b comes nearer to a point of a by more than this in a whole step. Seen from a body that turns, the
+  // other's centre moves at D − ω × r and, as r changes, by up to ω·D more; what turns alike does not close in.
+  S approach_max(std::uint32_t a, std::uint32_t b, S now) const {
+    const Course<S> ca = courses_.of(a), cb = courses_.of(b);
+    const Vec<S> way(cb.dx - ca.dx, cb.dy - ca.dy);
+    const S reach_a = world_.bodies[a].extent_max, reach_b = world_.bodies[b].extent_max;
+    const S plain = length<S>(way) + (absolute(ca.da) * reach_a + absolute(cb.da) * reach_b);
+    if (ca.da == S(0) && cb.da == S(0)) return plain;
+    const Vec<S> between = courses_.center_at(b, now) - courses_.center_at(a, now);
+    const auto seen_turning = [&](S turn, S reach) {
+      const Vec<S> turned(way.x() + turn * between.y(), way.y() - turn * between.x());
+      return length<S>(turned) + (S(0.5) * absolute(turn) * length<S>(way) + absolute(cb.da - ca.da) * reach);
     };
-    world_.broad_phase->find_pairs_where(proxies_, may_pass, world_.scratch.pairs);
-    for (const auto& [low, high] : world_.scratch.pairs) push_impact(low, high);
-  }
-
-  // m, no point of b comes nearer to a point of a by more than this in the step.
-  S approach_max(std::uint32_t a, std::uint32_t b) const {
-    const Motion<S>&ma = world_.motions[a], &mb = world_.motions[b];
-    const Vec<S> way(mb.dx - ma.dx, mb.dy - ma.dy);
-    return length<S>(way) + absolute(ma.da) * world_.bodies[a].extent_max +
-           absolute(mb.da) * world_.bodies[b].extent_max;
+    return min_of(plain, min_of(seen_turning(ca.da, reach_b), seen_turning(cb.da, reach_a)));
   }
 
   // Bodies that move together, as the pieces of a heap do, cannot pass through each other however fast they are.
-  bool close_in_fast(std::uint32_t a, std::uint32_t b) const {
-    const Body<S>&ba = world_.bodies[a], &bb = world_.bodies[b];
-    S thickness = ba.dynamic() ? ba.extent_min : bb.extent_min;
-    if (bb.dynamic()) thickness = min_of(thickness, bb.extent_min);
-    return approach_max(a, b) > S(kFastFraction) * thickness;
+  static bool passes(const Body<S>& a, const Body<S>& b, S way) {
+    S thickness = a.dynamic() ? a.extent_min : b.extent_min;
+    if (b.dynamic()) thickness = min_of(thickness, b.extent_min);
+    return way > S(kFastFraction) * thickness;
   }
 
-  void push_impact(Proxy low, Proxy high) {
-    ImpactEvent<S> event{S(1), stop_[world_.shapes[low].body], stop_[world_.shapes[high].body], low, high};
-    if (!first_impact(low, high, event.time)) return;
-    events_.push_back(event);
+  // What touches does not close in where it touches, or the contact would have seen to it; but it may swing around that
+  // place.
+  bool swings_fast(const Body<S>& a, const Body<S>& b, const Contact<S>& c) const {
+    const S turn = absolute(courses_.of(c.body_b).da - courses_.of(c.body_a).da);
+    return passes(a, b, turn * min_of(a.extent_max, b.extent_max));
+  }
+
+  // The pair's next impact after `now`, if it has one in this step.
+  bool find_impact(const Contact<S>& c, S now, S& time) const {
+    const Body<S>&body_a = world_.bodies[c.body_a], &body_b = world_.bodies[c.body_b];
+    const S approach = approach_max(c.body_a, c.body_b, now);
+    if (!passes(body_a, body_b, approach)) return false;
+    const Convex<S>&a = world_.convexes[c.shape_a], &b = world_.convexes[c.shape_b];
+    const Sweep<S> sa = courses_.sweep_from(c.body_a, now), sb = courses_.sweep_from(c.body_b, now);
+    const S reach = min_of(world_.shapes[c.shape_a].reach, world_.shapes[c.shape_b].reach);
+    const S apart = gjk_distance(a, b, sa.pose(S(0)).inverse_times(sb.pose(S(0)))).separation;
+    S target, tolerance;
+    if (apart > S(kImpactToleranceFraction) * reach) {
+      if (apart > approach * (S(1) - now) + reach) return false;
+      target = min_of(S(kImpactTargetFraction) * reach, S(0.5) * apart);
+      tolerance = S(0.25) * target;
+    } else {
+      // A chain has no inside to sink into.
+      if (a.chain_segment() || b.chain_segment() || !swings_fast(body_a, body_b, c)) return false;
+      target = min_of(apart, S(0)) - S(kImpactTargetFraction) * reach;
+      tolerance = S(0.25 * kImpactTargetFraction) * reach;
+    }
+    const Impact<S> impact = time_of_impact(a, sa, b, sb, target, tolerance);
+    if (impact.kind == ImpactKind::kSeparated || impact.kind == ImpactKind::kOverlapped) return false;
+    time = now + impact.time * (S(1) - now);
+    return time < S(1);
+  }
+
+  void note_impact(std::uint32_t contact, S time) {
+    const Contact<S>& c = world_.contacts[contact];
+    events_.push_back({time, contact, c.shape_a, c.shape_b, courses_.impacts(c.body_a), courses_.impacts(c.body_b)});
     std::push_heap(events_.begin(), events_.end(), later);
   }
 
@@ -112,63 +203,202 @@ class ContinuousCollision {
     return x.low != y.low ? x.low > y.low : x.high > y.high;
   }
 
-  // A pair moves in at most two pieces: until the first of its bodies stops, and until the second does.
-  bool first_impact(Proxy low, Proxy high, S& time) const {
-    const std::uint32_t a = world_.shapes[low].body, b = world_.shapes[high].body;
-    const S first = min_of(stop_[a], stop_[b]), second = max_of(stop_[a], stop_[b]);
-    return impact_between(low, high, S(0), first, time) ||
-           (first < second && impact_between(low, high, first, second, time));
-  }
+  // Taking impacts ----------------------------------------------------------------------------------------------
 
-  bool impact_between(Proxy low, Proxy high, S from, S to, S& time) const {
-    if (!(from < to)) return false;
-    const Shape<S>&a = world_.shapes[low], &b = world_.shapes[high];
-    const Convex<S>&ca = world_.convexes[low], &cb = world_.convexes[high];
-    const Sweep<S> sa = sweep_of(a.body, from, to), sb = sweep_of(b.body, from, to);
-    const S reach = min_of(a.reach, b.reach);
-    // What touches already is the contact solver's business; what is near stops nearer.
-    const S apart = gjk_distance(ca, cb, sa.pose(S(0)).inverse_times(sb.pose(S(0)))).separation;
-    if (apart <= S(kImpactToleranceFraction) * reach) return false;
-    // What is further apart than the pair can close in by needs no search.
-    if (apart > approach_max(a.body, b.body) + reach) return false;
-    const S target = min_of(S(kImpactTargetFraction) * reach, S(0.5) * apart);
-    const Impact<S> impact = time_of_impact(ca, sa, cb, sb, target, S(0.25) * target);
-    if (impact.kind == ImpactKind::kSeparated || impact.kind == ImpactKind::kOverlapped) return false;
-    time = from + impact.time * (to - from);
-    return true;
-  }
-
-  // Earliest first. An impact that was computed before one of its bodies was stopped is computed anew.
+  // An impact that was computed before one of its bodies had another is out of date, and looked for anew.
   void take_impacts_in_order() {
     while (!events_.empty()) {
       std::pop_heap(events_.begin(), events_.end(), later);
       const ImpactEvent<S> event = events_.back();
       events_.pop_back();
-      const std::uint32_t a = world_.shapes[event.low].body, b = world_.shapes[event.high].body;
-      if (event.stop_low != stop_[a] || event.stop_high != stop_[b]) {
-        push_impact(event.low, event.high);
-        continue;
+      const Contact<S>& c = world_.contacts[event.contact];
+      if (event.impacts_low == courses_.impacts(c.body_a) && event.impacts_high == courses_.impacts(c.body_b)) {
+        take_impact(c, event.time);
+      } else {
+        look_again(event.contact, max_of(courses_.of(c.body_a).since, courses_.of(c.body_b).since));
       }
-      if (fast_[a]) stop_[a] = min_of(stop_[a], event.time);
-      if (fast_[b]) stop_[b] = min_of(stop_[b], event.time);
     }
   }
 
-  void shorten_motions() {
-    for (std::uint32_t slot : world_.scratch.fast) {
-      Motion<S>& m = world_.motions[slot];
-      const S t = stop_[slot];
-      if (t == S(1)) continue;
-      m.dx *= t;
-      m.dy *= t;
-      m.da *= t;
+  void look_again(std::uint32_t contact, S now) {
+    S time;
+    if (find_impact(world_.contacts[contact], now, time)) note_impact(contact, time);
+  }
+
+  // After a body took a course that leads where it would not have come.
+  void look_around(std::uint32_t slot, S now) {
+    for_each_contact_of(world_, slot, [&](std::uint32_t contact) {
+      if (!world_.contacts[contact].sensor()) look_again(contact, now);
+    });
+  }
+
+  // Nothing, if the two do not touch after all, as what comes at a chain from behind.
+  Touch<S> touch_at(const Contact<S>& c, S now) const {
+    const Transform<S> pose_a = courses_.sweep_from(c.body_a, now).pose(S(0));
+    const Transform<S> b_in_a = pose_a.inverse_times(courses_.sweep_from(c.body_b, now).pose(S(0)));
+    const LocalManifold<S> m = manifold_at(c, b_in_a);
+    Touch<S> touch;
+    touch.normal = pose_a.q.apply(m.normal);
+    touch.count = m.count;
+    for (int i = 0; i < m.count; ++i) {
+      const Vec<S> point = pose_a.apply(m.points[i].p);
+      touch.arms_a[i] = point - courses_.center_at(c.body_a, now);
+      touch.arms_b[i] = point - courses_.center_at(c.body_b, now);
+    }
+    return touch;
+  }
+
+  LocalManifold<S> manifold_at(const Contact<S>& c, const Transform<S>& b_in_a) const {
+    const Convex<S>&a = world_.convexes[c.shape_a], &b = world_.convexes[c.shape_b];
+    const S reach = min_of(world_.shapes[c.shape_a].reach, world_.shapes[c.shape_b].reach);
+    LocalManifold<S> m = collide(a, b, b_in_a, reach, world_.settings.narrow_phase);
+    if (m.count > 0 || a.chain_segment() || b.chain_segment()) return m;
+    // Corners that pass close by have no manifold where a face lies further off; but these two have met.
+    const Distance<S> d = gjk_distance(a, b, b_in_a);
+    m.normal = d.normal;
+    m.add_point(S(0.5) * (d.point_a + d.point_b), d.separation, 0);
+    return m;
+  }
+
+  void take_impact(const Contact<S>& c, S now) {
+    const Touch<S> touch = touch_at(c, now);
+    if (touch.count == 0) return;
+    if (is_free(c.body_a) && is_free(c.body_b)) {
+      bounce(c, touch, now);
+    } else {
+      give_way(c, touch, now);
+    }
+  }
+
+  // Whether nothing holds the body but what it meets now.
+  bool is_free(std::uint32_t slot) const {
+    const Body<S>& body = world_.bodies[slot];
+    if (!body.dynamic()) return true;
+    const std::vector<std::uint64_t>& taken = world_.touching.taken;
+    return world_.settings.solver == SolverKind::kSoftStep && body.awake() && body.first_joint == kNoJoint &&
+           (slot >= taken.size() || taken[slot] == 0) && courses_.impacts(slot) < kImpactsMax;
+  }
+
+  // As gravity had made the velocity by now; what is left of the step adds the rest later.
+  Twist<S> velocity_of(std::uint32_t slot, S now) const {
+    const Body<S>& body = world_.bodies[slot];
+    const Motion<S>& m = world_.motions[slot];
+    Twist<S> twist{Vec<S>(m.vx, m.vy), m.w, body.inv_mass, body.inv_inertia};
+    const S yet = (S(1) - now) * S(world_.settings.time_step);
+    if (body.dynamic()) twist.v -= world_.settings.gravity.template cast<S>() * (body.gravity_scale * yet);
+    return twist;
+  }
+
+  // Of a whole step.
+  Twist<S> way_of_course(std::uint32_t slot) const {
+    const Body<S>& body = world_.bodies[slot];
+    const Course<S> course = courses_.of(slot);
+    return {Vec<S>(course.dx, course.dy), course.da, body.inv_mass, body.inv_inertia};
+  }
+
+  void set_way(std::uint32_t slot, const Twist<S>& way) {
+    Course<S>& course = courses_.latest(slot);
+    course.dx = way.v.x();
+    course.dy = way.v.y();
+    course.da = way.w;
+  }
+
+  void bounce(const Contact<S>& c, const Touch<S>& touch, S now) {
+    const Twist<S> before_a = velocity_of(c.body_a, now), before_b = velocity_of(c.body_b, now);
+    const S closing = -normal_velocity(touch, before_a, before_b);
+    if (!(closing > S(0))) return give_way(c, touch, now);
+    const bool springs = closing > S(world_.settings.restitution_threshold);
+    Twist<S> after_a = before_a, after_b = before_b;
+    collide_at(touch, springs ? c.restitution : S(0), c.friction, after_a, after_b);
+    change_velocity(c.body_a, before_a, after_a, now);
+    change_velocity(c.body_b, before_b, after_b, now);
+    // A way is not quite a velocity times the step: what still closes in is taken off.
+    Twist<S> way_a = way_of_course(c.body_a), way_b = way_of_course(c.body_b);
+    collide_at(touch, S(0), S(0), way_a, way_b);
+    if (way_a.inv_mass > S(0)) set_way(c.body_a, way_a);
+    if (way_b.inv_mass > S(0)) set_way(c.body_b, way_b);
+    for (std::uint32_t slot : {c.body_a, c.body_b})
+      if (world_.bodies[slot].dynamic()) look_around(slot, now);
+    report(c, touch, now, closing);
+  }
+
+  void change_velocity(std::uint32_t slot, const Twist<S>& before, const Twist<S>& after, S now) {
+    if (!world_.bodies[slot].dynamic()) return;
+    const Vec<S> v = after.v - before.v;
+    const S w = after.w - before.w, time_step = S(world_.settings.time_step);
+    Motion<S>& m = world_.motions[slot];
+    m.vx += v.x();
+    m.vy += v.y();
+    m.w += w;
+    Course<S>& course = courses_.turn_at(slot, now);
+    course.dx += v.x() * time_step;
+    course.dy += v.y() * time_step;
+    course.da += w * time_step;
+  }
+
+  // Whoever is fast goes on with what it met, and does not turn; for the second time it stops.
+  void give_way(const Contact<S>& c, const Touch<S>& touch, S now) {
+    const bool yields_a = yields(c.body_a, c.body_b), yields_b = yields(c.body_b, c.body_a);
+    if (!yields_a && !yields_b) return;
+    Twist<S> a = way_of_course(c.body_a), b = way_of_course(c.body_b);
+    hold(a, yields_a);
+    hold(b, yields_b);
+    collide_at(touch, S(0), S(0), a, b);
+    if (yields_a) go_on(c.body_a, a, pushes(c.body_b), now);
+    if (yields_b) go_on(c.body_b, b, pushes(c.body_a), now);
+  }
+
+  static void hold(Twist<S>& way, bool yields) {
+    way.inv_inertia = S(0);
+    (yields ? way.w : way.inv_mass) = S(0);
+  }
+
+  void go_on(std::uint32_t slot, Twist<S> way, bool pushed, S now) {
+    courses_.turn_at(slot, now);
+    if (!pushed && courses_.impacts(slot) >= kWaysMax) way.v = Vec<S>::Zero();
+    set_way(slot, way);
+  }
+
+  // What a kinematic body meets has no choice.
+  bool pushes(std::uint32_t slot) const { return world_.bodies[slot].body_type() == BodyType::kKinematic; }
+
+  bool yields(std::uint32_t slot, std::uint32_t other) const {
+    const Body<S>& body = world_.bodies[slot];
+    if (!body.dynamic() || courses_.impacts(slot) >= (pushes(other) ? kImpactsMax : kWaysMax)) return false;
+    return pushes(other) || moves_fast(body, world_.motions[slot]);
+  }
+
+  // The two part again within the step: no manifold will ever tell of it.
+  void report(const Contact<S>& c, const Touch<S>& touch, S now, S closing) {
+    const bool hit = world_.settings.hit_events && closing > S(world_.settings.hit_events->speed_min);
+    ContactEvent event = end_event(world_, c);
+    const Vec<S> point = courses_.center_at(c.body_a, now) + touch.arms_a[0];
+    event.point = Vec2(double(point.x()), double(point.y()));
+    event.normal = Vec2(double(touch.normal.x()), double(touch.normal.y()));
+    event.approach_speed = double(closing);
+    const auto tell = [&](ContactEvent::Kind kind) {
+      event.kind = kind;
+      world_.events.push_back(event);
+    };
+    if (!c.touching()) tell(ContactEvent::Kind::kBegin);
+    if (hit) tell(ContactEvent::Kind::kHit);
+    if (!c.touching()) world_.events.push_back(end_event(world_, c));
+  }
+
+  void change_motions() {
+    for (const Course<S>& course : courses_.changed()) {
+      if (!world_.bodies[course.body].awake()) wake_body(world_, course.body);
+      const S rest = S(1) - course.since;
+      Motion<S>& m = world_.motions[course.body];
+      m.dx = course.x + rest * course.dx;
+      m.dy = course.y + rest * course.dy;
+      m.da = course.a + rest * course.da;
     }
   }
 
   WorldData<S>& world_;
-  std::vector<S> stop_;             // by body slot: share of the step after which it stands
-  std::vector<std::uint8_t> fast_;  // by body slot
-  std::vector<Proxy> proxies_;
+  Courses<S> courses_;
+  std::vector<std::uint32_t> closing_;  // contacts
   std::vector<ImpactEvent<S>> events_;
 };
 
@@ -176,11 +406,8 @@ class ContinuousCollision {
 
 template <class S>
 void collide_continuously(WorldData<S>& world) {
-  std::vector<std::uint32_t>& fast = world.scratch.fast;
-  fast.clear();
-  for (std::uint32_t slot : world.awake)
-    if (moves_fast(world.bodies[slot], world.motions[slot])) fast.push_back(slot);
-  if (!fast.empty()) ContinuousCollision<S>(world).run();
+  const auto fast = [&](std::uint32_t slot) { return moves_fast(world.bodies[slot], world.motions[slot]); };
+  if (std::any_of(world.awake.begin(), world.awake.end(), fast)) ContinuousCollision<S>(world).run();
 }
 
 template void collide_continuously(WorldData<float>&);

@@ -57,7 +57,7 @@ struct Scratch {
   std::vector<std::uint32_t> parent;                  // union-find, by awake index
   std::vector<std::uint8_t> restless;                 // by root
   std::vector<Vec<S>> pulls;                          // m/s, by awake index
-  std::vector<std::uint32_t> fast;                    // body slots
+  std::vector<std::uint32_t> stretched;               // body slots, see continuous.h
   std::vector<std::uint32_t> parted, met;             // contact slots
   std::vector<std::uint8_t> findings;                 // by index of active contact
   std::vector<std::vector<std::uint32_t>> by_member;  // of the team

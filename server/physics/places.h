@@ -19,7 +19,7 @@ struct alignas(16 * sizeof(S)) Place {
   S box = 0;                          // 1: a sharp box, which box_kernels.h may take; 0: any other shape
   S way_x = 0, way_y = 0;             // m, how far the body comes in a step at its velocity
   S vertices = 0;                     // of a sharp polygon whose axes are its body's (polygon_kernels.h); else 0
-  S unused = 0;                       // no padding
+  S fast = 0;  // 1: may pass through something in the step at hand (continuous.h); 0 between steps
 };
 
 // Who finds out where a pair touches: a kernel that looks at many side by side, or the general routine.

@@ -144,8 +144,8 @@ void WorldOf<S>::finish_motions() {
   });
   for (const std::vector<Proxy>& proxies : left)
     for (Proxy proxy : proxies) refresh_bounds(data_, proxy);
-  for (std::uint32_t slot : data_.scratch.fast) reset_bounds(data_, slot);
-  data_.scratch.fast.clear();
+  for (std::uint32_t slot : data_.scratch.stretched) reset_bounds(data_, slot);
+  data_.scratch.stretched.clear();
 }
 
 // Bodies --------------------------------------------------------------------------------------------------------

@@ -48,14 +48,6 @@ struct Segment {
 };
 
 template <class S>
-void add_point(LocalManifold<S>& m, const Vec<S>& p, S separation, std::uint32_t id) {
-  m.points[m.count].p = p;
-  m.points[m.count].separation = separation;
-  m.points[m.count].id = id;
-  ++m.count;
-}
-
-template <class S>
 LocalManifold<S> collide_disc(const Segment<S>& s, const Vec<S>& center, S radius, S reach) {
   LocalManifold<S> m;
   const S along = dot<S>(s.edge, center - s.v1);
@@ -75,7 +67,7 @@ LocalManifold<S> collide_disc(const Segment<S>& s, const Vec<S>& center, S radiu
     nearest = center - m.normal * distance;
   }
   const S gap = distance - radius;
-  if (gap <= reach) add_point<S>(m, nearest + m.normal * (S(0.5) * gap), gap, 0);
+  if (gap <= reach) m.add_point(nearest + m.normal * (S(0.5) * gap), gap, 0);
   return m;
 }
 
@@ -87,7 +79,7 @@ LocalManifold<S> collide_corners(const Segment<S>& s, const Convex<S>& other, S 
   if (d.separation > reach) return m;
   if (!s.region_of_v1(d.normal) && !s.region_of_v2(d.normal)) return m;
   m.normal = d.normal;
-  add_point<S>(m, S(0.5) * (d.point_a + d.point_b), d.separation, ManifoldIds::kCorners);
+  m.add_point(S(0.5) * (d.point_a + d.point_b), d.separation, ManifoldIds::kCorners);
   return m;
 }
 

@@ -15,14 +15,6 @@ std::uint32_t after(const Convex<S>& shape, std::uint32_t i) {
   return i + 1 < shape.count ? i + 1 : 0;
 }
 
-template <class S>
-void add_point(Manifold<S>& m, const Vec<S>& p, S separation, std::uint32_t id) {
-  m.points[m.count].p = p;
-  m.points[m.count].separation = separation;
-  m.points[m.count].id = id;
-  ++m.count;
-}
-
 // The nearest feature of a polygon to a point outside or inside of it decides the normal: a face, or a corner.
 template <class S>
 Manifold<S> collide_polygon_circle(const Convex<S>& polygon, const Vec<S>& center, S radius, S reach) {
@@ -52,7 +44,7 @@ Manifold<S> collide_polygon_circle(const Convex<S>& polygon, const Vec<S>& cente
   }
   const S gap = separation - radius - polygon.radius;
   if (gap > reach) return m;
-  add_point<S>(m, center - m.normal * (separation - polygon.radius - S(0.5) * gap), gap, id);
+  m.add_point(center - m.normal * (separation - polygon.radius - S(0.5) * gap), gap, id);
   return m;
 }
 
@@ -67,7 +59,7 @@ Manifold<S> collide_segment_circle(const Convex<S>& segment, const Vec<S>& cente
   const S gap = distance - segment.radius - radius;
   if (gap > reach) return m;
   m.normal = distance > S(0) ? Vec<S>(d / distance) : segment.normals[0];
-  add_point<S>(m, nearest + m.normal * (segment.radius + S(0.5) * gap), gap, 0);
+  m.add_point(nearest + m.normal * (segment.radius + S(0.5) * gap), gap, 0);
   return m;
 }
 
@@ -86,7 +78,7 @@ Manifold<S> collide_circles(const Convex<S>& a, const Vec<S>& center, S radius, 
   if (gap > reach) return m;
   // Concentric circles have no direction: up is as good as any, and the same everywhere.
   m.normal = distance > S(0) ? Vec<S>(d / distance) : Vec<S>(S(0), S(1));
-  add_point<S>(m, a.vertices[0] + m.normal * (a.radius + S(0.5) * gap), gap, 0);
+  m.add_point(a.vertices[0] + m.normal * (a.radius + S(0.5) * gap), gap, 0);
   return m;
 }
 
@@ -126,11 +118,9 @@ Manifold<S> clip(const Convex<S>& reference, std::uint32_t face, const Convex<S>
   const std::uint32_t side = flip ? ManifoldIds::kFlip : 0u;
   // Midway between the surfaces.
   if (sp - radii <= reach)
-    add_point<S>(m, p - normal * (S(0.5) * (sp + other.radius - reference.radius)), sp - radii,
-                 side | (face << 8) | j1);
+    m.add_point(p - normal * (S(0.5) * (sp + other.radius - reference.radius)), sp - radii, side | (face << 8) | j1);
   if (sq - radii <= reach)
-    add_point<S>(m, q - normal * (S(0.5) * (sq + other.radius - reference.radius)), sq - radii,
-                 side | (face << 8) | j2);
+    m.add_point(q - normal * (S(0.5) * (sq + other.radius - reference.radius)), sq - radii, side | (face << 8) | j2);
   return m;
 }
 
@@ -141,7 +131,7 @@ Manifold<S> corner_to_corner(const Convex<S>& a, const Convex<S>& b, S reach) {
   const Distance<S> d = gjk_distance<S>(a, b, Transform<S>{});
   if (d.separation > reach) return m;
   m.normal = d.normal;
-  add_point<S>(m, S(0.5) * (d.point_a + d.point_b), d.separation, ManifoldIds::kCorners);
+  m.add_point(S(0.5) * (d.point_a + d.point_b), d.separation, ManifoldIds::kCorners);
   return m;
 }
 
@@ -159,7 +149,7 @@ Manifold<S> collide_rounded(const Convex<S>& a, const Convex<S>& b, const Manifo
   Manifold<S> m;
   if (d.separation > reach) return m;
   m.normal = d.normal;
-  add_point<S>(m, S(0.5) * (d.point_a + d.point_b), d.separation, ManifoldIds::kCorners);
+  m.add_point(S(0.5) * (d.point_a + d.point_b), d.separation, ManifoldIds::kCorners);
   return m;
 }
 
@@ -185,7 +175,7 @@ Manifold<S> collide_polygons_gjk(const Convex<S>& a, const Convex<S>& b, S reach
   const S radii = a.radius + b.radius;
   if (radii > S(0) && d.separation + radii > S(0) && !d.edge_a && !d.edge_b) {
     m.normal = d.normal;
-    add_point<S>(m, S(0.5) * (d.point_a + d.point_b), d.separation, ManifoldIds::kCorners);
+    m.add_point(S(0.5) * (d.point_a + d.point_b), d.separation, ManifoldIds::kCorners);
     return m;
   }
   S along_a, along_b;
@@ -194,7 +184,7 @@ Manifold<S> collide_polygons_gjk(const Convex<S>& a, const Convex<S>& b, S reach
   m = along_a + S(kFacePreference) >= along_b ? clip(a, face_a, b, reach, false) : clip(b, face_b, a, reach, true);
   if (m.count == 0) {
     m.normal = d.normal;
-    add_point<S>(m, S(0.5) * (d.point_a + d.point_b), d.separation, ManifoldIds::kCorners);
+    m.add_point(S(0.5) * (d.point_a + d.point_b), d.separation, ManifoldIds::kCorners);
   }
   return m;
 }

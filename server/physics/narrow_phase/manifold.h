@@ -28,6 +28,8 @@ struct LocalManifold {
   Vec<S> normal = Vec<S>::Zero();
   Point points[2];
   int count = 0;
+
+  void add_point(const Vec<S>& p, S separation, std::uint32_t id) { points[count++] = {p, separation, id}; }
 };
 
 // Points further apart than `reach` (m ≥ 0) are left out. b_in_a: the frame of b as seen from a. With kGjk the normal
