@@ -43,6 +43,7 @@ template <class S>
 struct alignas(64) ContactBlockRest {
   S restitution[kLanes<S>];
   S approach[2][kLanes<S>];  // m/s, normal velocity at the start of the step, negative if closing
+  S bounce[2][kLanes<S>];    // m/s, at which a point leaves if it is hit in this sub-step: of the soft step alone
   S id[2][kLanes<S>];        // of the points' features, kNoPoint if there is none
   std::uint32_t shape_a[kLanes<S>], shape_b[kLanes<S>];
   std::uint32_t contact[kLanes<S>];

@@ -60,7 +60,7 @@ void clear_lane(ContactBlock<S>& block, ContactBlockRest<S>& rest, std::uint32_t
     for (S* array : {p.along, p.lever, p.separation, p.normal_impulse, p.tangent_impulse, p.preload, p.inverse_mass,
                      p.tangent_mass, p.total_normal_impulse, p.total_tangent_impulse})
       array[lane] = S(0);
-    rest.approach[i][lane] = S(0);
+    rest.approach[i][lane] = rest.bounce[i][lane] = S(0);
     rest.id[i][lane] = S(kNoPoint);
   }
   rest.restitution[lane] = S(0);
@@ -189,6 +189,7 @@ void move_lane(const ContactBlock<S>& from, const ContactBlockRest<S>& from_rest
     copy(source.total_normal_impulse, target.total_normal_impulse);
     copy(source.total_tangent_impulse, target.total_tangent_impulse);
     copy(from_rest.approach[p], to_rest.approach[p]);
+    copy(from_rest.bounce[p], to_rest.bounce[p]);
     copy(from_rest.id[p], to_rest.id[p]);
   }
   copy(from_rest.restitution, to_rest.restitution);

@@ -266,6 +266,17 @@ HWY_INLINE void solve_friction(Lanes<S>& k, const Arms<S>& r, PointLanes<S>& p, 
   take_up_speed(k, k.speed_across, impulse);
 }
 
+// m, of a point's surfaces now, negative if they overlap.
+template <class S>
+HWY_INLINE Vector<S> gap_of(const Lanes<S>& k, const PointLanes<S>& p, const Arms<S>& r) {
+  const auto one = set(S(1));
+  // Where the anchors are now: material points, turned with their bodies.
+  const auto b_along = hn::Sub(r.along, k.between_along), b_lever = hn::Sub(r.lever, k.between_lever);
+  const auto turned_b = hn::Add(hn::Mul(hn::Sub(k.b.c, one), b_along), hn::Mul(k.b.s, b_lever));
+  const auto turned_a = hn::Add(hn::Mul(hn::Sub(k.a.c, one), r.along), hn::Mul(k.a.s, r.lever));
+  return hn::Add(load(p.separation + k.lane), hn::Add(k.drift_along, hn::Sub(turned_b, turned_a)));
+}
+
 // What a point asks of its relative normal velocity: v + bias = −γ λ, where γ is its compliance. While it is closed the
 // spring's deflection and the preload P make the bias: rate · s − γ P. It opens where that is all that its preload can
 // bridge, s = γ P / rate: the force falls to nothing on the way there and does not jump. Beyond, the gap may close in
@@ -278,12 +289,7 @@ struct Demand {
 template <class S, bool kUseBias>
 HWY_INLINE Demand<S> demand_of(const Lanes<S>& k, const PointLanes<S>& p, const Arms<S>& r, Vector<S> inverse_mass,
                                const PassSettings<S>& settings) {
-  const auto one = set(S(1));
-  // Where the anchors are now: material points, turned with their bodies.
-  const auto b_along = hn::Sub(r.along, k.between_along), b_lever = hn::Sub(r.lever, k.between_lever);
-  const auto turned_b = hn::Add(hn::Mul(hn::Sub(k.b.c, one), b_along), hn::Mul(k.b.s, b_lever));
-  const auto turned_a = hn::Add(hn::Mul(hn::Sub(k.a.c, one), r.along), hn::Mul(k.a.s, r.lever));
-  const auto s = hn::Add(load(p.separation + k.lane), hn::Add(k.drift_along, hn::Sub(turned_b, turned_a)));
+  const auto s = gap_of(k, p, r);
   const auto soft = hn::Mul(set(settings.compliance), inverse_mass);
   const auto held = hn::Mul(soft, load(p.preload + k.lane)), wanted = hn::Mul(set(settings.bias_rate), s);
   const auto open = hn::Gt(wanted, held);
@@ -395,44 +401,68 @@ HWY_INLINE void follow_loads(const Lanes<S>& k, const TwoImpulses<Vector<S>>& to
   follow(q, hn::IfThenElse(two, half, totals.second));
 }
 
-// The speed at which restitution lets a point leave: e times that at which it closed in, if that was fast enough and
-// the point pushed; 0 if not.
+// The speed at which restitution lets a point leave that closes in at `now` (m/s < 0) after forces have acted, and did
+// so at `before` before: e times that at which it will strike, if that is fast enough; 0 if not. Semi-implicit Euler
+// moves bodies on parabolas whose speed at the start of a sub-step is v + a h / 2, so this is what has to bounce, after
+// the rest of the gap has been fallen through: u² = (v + a h / 2)² − 2 a s. Then a ball of e = 1 keeps its height.
 template <class S>
-HWY_INLINE Vector<S> leaving_speed(const Lanes<S>& k, const PointLanes<S>& p, const S* approach_of,
-                                   Vector<S> restitution, const PassSettings<S>& settings) {
+HWY_INLINE Vector<S> leaving_speed(Vector<S> before, Vector<S> now, Vector<S> gap, Vector<S> restitution,
+                                   const PassSettings<S>& settings) {
   const auto zero = hn::Zero(Tag<S>());
-  const auto approach = load(approach_of + k.lane);
-  const auto bounces =
-      hn::And(hn::Le(approach, set(-settings.threshold)), hn::Gt(load(p.total_normal_impulse + k.lane), zero));
-  return hn::IfThenElseZero(bounces, hn::Neg(hn::Mul(restitution, approach)));
+  const auto gain = hn::Sub(now, before), half = hn::Mul(set(S(0.5)), gain), flying = hn::Sub(now, half);
+  const auto fallen = smaller(hn::Mul(larger(gap, zero), set(settings.inv_h)), hn::Neg(now));
+  const auto square = hn::Sub(hn::Mul(flying, flying), hn::Mul(hn::Add(gain, gain), fallen));
+  const auto leaves = hn::Sub(hn::Mul(restitution, hn::Sqrt(larger(square, zero))), half);
+  const auto bounces = hn::And(hn::Le(now, set(-settings.threshold)), hn::Gt(restitution, zero));
+  return hn::IfThenElseZero(bounces, larger(leaves, zero));
 }
 
-// Newton's restitution for a contact that was hit in this step: each point that closed in faster than the threshold
-// and pushed leaves at e times that speed; the others must only not close in.
+// Before forces act and after: how fast the points close in, then how fast they shall leave if they meet.
+template <class S, bool kForcesActed>
+void note_approach(const Motion<S>* motions, ContactBlock<S>* blocks, ContactBlockRest<S>* rest, std::size_t count,
+                   const PassSettings<S>& settings) {
+  const std::size_t width = hn::Lanes(Tag<S>());
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t lane = 0; lane < blocks[i].count; lane += width) {
+      const auto restitution = load(rest[i].restitution + lane);
+      if (hn::AllFalse(Tag<S>(), hn::Gt(restitution, hn::Zero(Tag<S>())))) continue;
+      const Lanes<S> k(motions, blocks[i], lane);
+      for (int point = 0; point < 2; ++point) {
+        const PointLanes<S>& p = blocks[i].points[point];
+        const Arms<S> r(k, p);
+        const auto now = normal_speed(k, r);
+        S* bounce = rest[i].bounce[point] + lane;
+        store(kForcesActed ? leaving_speed<S>(load(bounce), now, gap_of(k, p, r), restitution, settings) : now, bounce);
+      }
+    }
+  }
+}
+
+// Newton's restitution for a contact that was hit in this sub-step: each point that was to bounce and pushed leaves at
+// its speed; the others must only not close in. The blow is over: nothing of it is a start for the next sub-step.
 template <class S>
-HWY_INLINE void restitute_lanes(Lanes<S>& k, const ContactBlockRest<S>& rest, const PassSettings<S>& settings) {
+HWY_INLINE void restitute_lanes(Lanes<S>& k, const ContactBlockRest<S>& rest) {
   const auto zero = hn::Zero(Tag<S>());
   PointLanes<S>&p1 = k.block.points[0], &p2 = k.block.points[1];
-  const auto restitution = load(rest.restitution + k.lane);
-  const auto u1 = leaving_speed(k, p1, rest.approach[0], restitution, settings);
-  const auto u2 = leaving_speed(k, p2, rest.approach[1], restitution, settings);
-  const auto bounces = hn::Or(hn::Gt(u1, zero), hn::Gt(u2, zero));
-  if (hn::AllFalse(Tag<S>(), bounces)) return;
   const Arms<S> r1(k, p1), r2(k, p2);
   const NormalPoints<S> n(k);
+  const auto u1 = hn::IfThenElseZero(hn::Gt(n.before.first, zero), load(rest.bounce[0] + k.lane));
+  const auto u2 = hn::IfThenElseZero(hn::Gt(n.before.second, zero), load(rest.bounce[1] + k.lane));
+  const auto bounces = hn::Or(hn::Gt(u1, zero), hn::Gt(u2, zero));
   // A point that is not there keeps far below what would make it push.
   const auto there = hn::Lt(load(p2.separation + k.lane), set(S(kFarSeparation)));
   const auto q1 = hn::Add(n.wanted_1(normal_speed(k, r1)), u1);
   const auto q2 = hn::IfThenElse(there, hn::Add(n.wanted_2(normal_speed(k, r2)), u2), set(S(-kFarSeparation)));
-  auto next = solve_two<S>(n.m1, n.coupling, n.m2, q1, q2);
-  next.first = hn::IfThenElse(bounces, next.first, n.before.first);
-  next.second = hn::IfThenElse(bounces, next.second, n.before.second);
-  const auto add = [&](PointLanes<S>& p, auto after, auto before) HWY_ATTR {
-    store(hn::Add(load(p.total_normal_impulse + k.lane), hn::Sub(after, before)), p.total_normal_impulse + k.lane);
+  const auto next = solve_two<S>(n.m1, n.coupling, n.m2, q1, q2);
+  const auto bounce = [&](PointLanes<S>& p, const Arms<S>& r, auto after, auto before) HWY_ATTR {
+    const auto impulse = hn::IfThenElseZero(bounces, hn::Sub(after, before));
+    push_along_normal(k, r, impulse);
+    store(hn::Add(load(p.total_normal_impulse + k.lane), impulse), p.total_normal_impulse + k.lane);
+    store(hn::IfThenElse(bounces, zero, before), p.normal_impulse + k.lane);
+    store(hn::IfThenZeroElse(bounces, load(p.tangent_impulse + k.lane)), p.tangent_impulse + k.lane);
   };
-  add(p1, next.first, n.before.first);
-  add(p2, next.second, n.before.second);
-  push_both(k, r1, r2, n.before, next);
+  bounce(p1, r1, next.first, n.before.first);
+  bounce(p2, r2, next.second, n.before.second);
 }
 
 // Calls work(lanes) for each vector of each block, in order, and writes velocities back.
@@ -442,7 +472,7 @@ HWY_INLINE void for_each_vector(Motion<S>* motions, ContactBlock<S>* blocks, std
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t lane = 0; lane < blocks[i].count; lane += width) {
       Lanes<S> k(motions, blocks[i], lane);
-      work(k, i);
+      work(k);
       k.store_to(motions);
     }
   }
@@ -450,7 +480,7 @@ HWY_INLINE void for_each_vector(Motion<S>* motions, ContactBlock<S>* blocks, std
 
 template <class S>
 void warm_start(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const PassSettings<S>&) {
-  for_each_vector<S>(motions, blocks, count, [](Lanes<S>& k, std::size_t) HWY_ATTR { warm_start_lanes(k); });
+  for_each_vector<S>(motions, blocks, count, [](Lanes<S>& k) HWY_ATTR { warm_start_lanes(k); });
 }
 
 // What a point's friction may be bounded by before bodies move: its normal impulse, but for a shock. Friction turns a
@@ -465,7 +495,7 @@ HWY_INLINE Vector<S> without_shock(const Lanes<S>& k, const PointLanes<S>& p, Ve
 // between the bound of the sub-step before and this one's is never taken back.
 template <class S>
 void solve(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const PassSettings<S>& settings) {
-  for_each_vector<S>(motions, blocks, count, [&settings](Lanes<S>& k, std::size_t) HWY_ATTR {
+  for_each_vector<S>(motions, blocks, count, [&settings](Lanes<S>& k) HWY_ATTR {
     PointLanes<S>&p1 = k.block.points[0], &p2 = k.block.points[1];
     const Arms<S> r1(k, p1), r2(k, p2);
     const auto before_1 = load(p1.normal_impulse + k.lane), before_2 = load(p2.normal_impulse + k.lane);
@@ -482,7 +512,7 @@ void solve(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const
 // slope a little too slippery.
 template <class S, bool kLast>
 void relax(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const PassSettings<S>& settings) {
-  for_each_vector<S>(motions, blocks, count, [&settings](Lanes<S>& k, std::size_t) HWY_ATTR {
+  for_each_vector<S>(motions, blocks, count, [&settings](Lanes<S>& k) HWY_ATTR {
     PointLanes<S>&p1 = k.block.points[0], &p2 = k.block.points[1];
     const Arms<S> r1(k, p1), r2(k, p2);
     const auto normals = solve_normals<S, false>(k, r1, r2, settings);
@@ -497,14 +527,28 @@ void relax(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const
 }
 
 template <class S>
-void restitute(Motion<S>* motions, ContactBlock<S>* blocks, const ContactBlockRest<S>* rest, std::size_t count,
-               const PassSettings<S>& settings) {
-  for_each_vector<S>(motions, blocks, count,
-                     [&settings, rest](Lanes<S>& k, std::size_t i) HWY_ATTR { restitute_lanes(k, rest[i], settings); });
+void restitute(Motion<S>* motions, ContactBlock<S>* blocks, const ContactBlockRest<S>* rest, std::size_t count) {
+  const std::size_t width = hn::Lanes(Tag<S>());
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t lane = 0; lane < blocks[i].count; lane += width) {
+      const auto fastest = larger(load(rest[i].bounce[0] + lane), load(rest[i].bounce[1] + lane));
+      if (hn::AllFalse(Tag<S>(), hn::Gt(fastest, hn::Zero(Tag<S>())))) continue;
+      Lanes<S> k(motions, blocks[i], lane);
+      restitute_lanes(k, rest[i]);
+      k.store_to(motions);
+    }
+  }
 }
 
 template <class S>
-constexpr ContactPasses<S> kPasses{take<S>, warm_start<S>, solve<S>, relax<S, false>, relax<S, true>, restitute<S>};
+constexpr ContactPasses<S> kPasses{take<S>,
+                                   warm_start<S>,
+                                   solve<S>,
+                                   relax<S, false>,
+                                   relax<S, true>,
+                                   note_approach<S, false>,
+                                   note_approach<S, true>,
+                                   restitute<S>};
 
 }  // namespace
 

@@ -36,8 +36,11 @@ struct ContactPasses {
   Pass solve;       // with bias: pushes overlap apart
   Pass relax;       // without; also keeps the totals
   Pass relax_last;  // in the last sub-step: also lets the preloads follow
-  void (*restitute)(Motion<S>* motions, ContactBlock<S>* blocks, const ContactBlockRest<S>* rest, std::size_t count,
-                    const PassSettings<S>& settings);
+  // Before forces act and after: finds how fast points that close in have to leave.
+  using Note = void (*)(const Motion<S>* motions, ContactBlock<S>* blocks, ContactBlockRest<S>* rest, std::size_t count,
+                        const PassSettings<S>& settings);
+  Note note_approach, note_bounce;
+  void (*restitute)(Motion<S>* motions, ContactBlock<S>* blocks, const ContactBlockRest<S>* rest, std::size_t count);
 };
 
 template <class S>

@@ -120,12 +120,20 @@ void solve_soft_step(WorldData<S>& world, JointSet<S>& joint_set) {
     });
   };
   JointPasses<S> joints(world, joint_set, h);
+  const auto note = [&](typename ContactPasses<S>::Note pass) {
+    if (!world.model.restitution) return;
+    for_each_color(world, Order::kForwards, [&](auto& color, bool, std::size_t begin, std::size_t end) {
+      pass(world.motions.data(), &color.blocks[begin], &color.rest[begin], end - begin, between);
+    });
+  };
   for (std::uint32_t i = 0; i < n; ++i) {
+    note(passes.note_approach);
     if (pulled) {
       pull_bodies(world);
     } else {
       integrate_velocities(world, mover);
     }
+    note(passes.note_bounce);
     joints.warm_start();
     run(passes.warm_start, Order::kForwards);
     joints.solve();
@@ -133,12 +141,13 @@ void solve_soft_step(WorldData<S>& world, JointSet<S>& joint_set) {
     integrate_positions(world, mover);
     joints.relax();
     run(i + 1 < n ? passes.relax : passes.relax_last, Order::kBackwards);
+    if (world.model.restitution) {
+      for_each_color(world, Order::kForwards, [&](auto& color, bool, std::size_t begin, std::size_t end) {
+        passes.restitute(world.motions.data(), &color.blocks[begin], &color.rest[begin], end - begin);
+      });
+    }
   }
   joints.store();
-  if (!world.model.restitution) return;
-  for_each_color(world, Order::kForwards, [&](auto& color, bool, std::size_t begin, std::size_t end) {
-    passes.restitute(world.motions.data(), &color.blocks[begin], &color.rest[begin], end - begin, between);
-  });
 }
 
 template void solve_soft_step(WorldData<float>&, JointSet<float>&);

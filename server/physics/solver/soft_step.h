@@ -11,10 +11,11 @@ namespace urto {
 //   (but for bodies that race past each other, kDriftFraction);
 // - the soft contacts have a preload, so that stacks do not stay sunk under their weight (softness.h);
 // - two points of a manifold are solved together, so that a stack does not creep sideways;
+// - restitution acts in each sub-step, at the speed of the impact;
 // - colours are taken forwards and backwards in turn, so that a pile does not lean over to one side.
 //
-// Per sub-step: integrate velocities, warm start, solve with bias, integrate positions, relax (solve without bias).
-// After the last: restitution. Works on the lanes of the contact set in place; joints come before contacts in each
+// Per sub-step: integrate velocities, warm start, solve with bias, integrate positions, relax (solve without bias),
+// restitute. Works on the lanes of the contact set in place; joints come before contacts in each
 // pass, so that contacts are firmest. `joints` is a buffer that keeps its capacity between steps.
 template <class S>
 void solve_soft_step(WorldData<S>& world, JointSet<S>& joints);

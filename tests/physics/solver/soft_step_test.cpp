@@ -68,7 +68,7 @@ TEST(SoftStepTest, CollisionsConserveMomentum) {
   EXPECT_LT(after.kinetic, before.kinetic);
 }
 
-TEST(SoftStepTest, ElasticBounceIsStraightAndKeepsMostEnergy) {
+TEST(SoftStepTest, ElasticBounceIsStraightAndKeepsItsEnergy) {
   WorldSettings settings;
   auto world = make_world(settings);
   add(*world, floor_body());
@@ -80,8 +80,8 @@ TEST(SoftStepTest, ElasticBounceIsStraightAndKeepsMostEnergy) {
   EXPECT_NEAR(world->body(id)->angle, 0, 1e-5);
   EXPECT_NEAR(world->body(id)->position.x(), 0, 1e-5);
   const double after = world->energy().kinetic + world->energy().potential;
-  EXPECT_GT(after, 0.75 * before);  // Box2D keeps 0.71, Rapier 0.61 of it
-  EXPECT_LT(after, 1.02 * before);
+  // v h g / 2 of it come and go with the phase of the flight: 0.4 %. (Box2D keeps 0.71, Rapier 0.61 of it.)
+  EXPECT_NEAR(after, before, 0.01 * before);
 }
 
 TEST(SoftStepTest, ContactForcesOfAStackCarryItsWeight) {
