@@ -27,7 +27,7 @@ inline constexpr double kGroundStiffness = 2.0;
 
 // Time in which a contact's preload follows its impulse. Shorter, and large pyramids spread and stacks of a hundred
 // boxes begin to swing, because the load reaches the ground more slowly than the preload chases it; longer, and they
-// recover late. Measured in docs/decisions/0006.
+// recover late. Measured in docs/decisions/0008.
 inline constexpr double kPreloadTime = 12.0;  // s
 
 // A normal impulse that grows by more than this speed in a sub-step is a shock: its friction waits until bodies have
