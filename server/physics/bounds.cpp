@@ -95,13 +95,26 @@ void mark_moved(WorldData<S>& world, Proxy proxy) {
   world.moved.push_back(proxy);
 }
 
+// Whether the bounds that the broad phase knows hold the shape and its way to come, its reach included.
+template <class S>
+bool still_bounded(const WorldData<S>& world, const Body<S>& body, Proxy proxy) {
+  const Shape<S>& shape = world.shapes[proxy];
+  if (has_outline(shape) && (shape.flags & kShapeCentred) != 0) {
+    // The disc around a body is known at once; most outlines need not be gone round.
+    const Place<S>& place = world.places[proxy];
+    const S extent = body.extent_max + shape.reach;
+    const Vec<S> from(place.x, place.y), to(place.x + place.way_x, place.y + place.way_y);
+    if (shape.fat.contains(Aabb<S>{from, from}.merged(Aabb<S>{to, to}).expanded(extent))) return true;
+  }
+  return shape.fat.contains(swept_bounds(world, proxy).expanded(shape.reach));
+}
+
 template <class S>
 void follow_body(WorldData<S>& world, std::uint32_t slot, std::vector<Proxy>& left) {
   refresh_places(world, slot);
-  for (Proxy proxy = world.bodies[slot].first_shape; proxy != kNone; proxy = world.shapes[proxy].next) {
-    const Shape<S>& shape = world.shapes[proxy];
-    if (!shape.fat.contains(swept_bounds(world, proxy).expanded(shape.reach))) left.push_back(proxy);
-  }
+  const Body<S>& body = world.bodies[slot];
+  for (Proxy proxy = body.first_shape; proxy != kNone; proxy = world.shapes[proxy].next)
+    if (!still_bounded(world, body, proxy)) left.push_back(proxy);
 }
 
 template <class S>

@@ -280,12 +280,20 @@ class Lookout {
   }
 
   void update_one(std::uint32_t index) {
-    Contact<S>& c = world_.contacts[world_.active[index].contact];
+    const ActiveContact& active = world_.active[index];
+    if (lanes_ && !active.sensor) {
+      // Its lane will have the manifold; to know that there is one is enough.
+      const S reach = reach_of(world_.places[active.shape_a], world_.places[active.shape_b]);
+      if (manifold_of(world_, active.shape_a, active.shape_b, reach).local.count > 0)
+        world_.scratch.findings[index] = kMet;
+      return;
+    }
+    Contact<S>& c = world_.contacts[active.contact];
     if (world_.settings.solver == SolverKind::kThesis && !c.sensor())
       return;  // it looks for itself, in every sub-iteration
     update_manifold(world_, c);
     if (c.count == 0) return;
-    if (!c.touching() || world_.settings.hit_events) c.approach = approach_speed(world_, c);
+    if (!c.touching()) c.approach = approach_speed(world_, c);
     if (!c.sensor()) world_.scratch.findings[index] = kMet;
   }
 

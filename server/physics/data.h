@@ -55,6 +55,7 @@ struct Scratch {
   std::vector<Proxy> proxies;
   std::vector<std::uint32_t> stack;
   std::vector<std::uint32_t> parent;                  // union-find, by awake index
+  std::vector<std::uint32_t> member;                  // by body slot, see sleep.cpp
   std::vector<std::uint8_t> restless;                 // by root
   std::vector<Vec<S>> pulls;                          // m/s, by awake index
   std::vector<std::uint32_t> stretched;               // body slots, see continuous.h

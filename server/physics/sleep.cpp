@@ -42,17 +42,29 @@ void for_each_bond(const WorldData<S>& world, Visit&& visit) {
   }
 }
 
+// What an island knows of the bodies, by slot: the index of an awake dynamic one among the awake, or one of these.
+constexpr std::uint32_t kStill = kNone, kMover = kNone - 1;  // a kinematic body moves; anything else is still
+
+template <class S>
+void list_members(WorldData<S>& world) {
+  std::vector<std::uint32_t>& member = world.scratch.member;
+  member.assign(world.bodies.size(), kStill);
+  for (std::uint32_t i = 0; i < world.awake.size(); ++i)
+    member[world.awake[i]] = world.bodies[world.awake[i]].dynamic() ? i : kMover;
+}
+
 // Joins what touches or is joined. The smaller index becomes the root, so the grouping does not depend on the order of
 // contacts.
 template <class S>
 void join_islands(WorldData<S>& world) {
   std::vector<std::uint32_t>& parent = world.scratch.parent;
+  const std::vector<std::uint32_t>& member = world.scratch.member;
   parent.resize(world.awake.size());
   for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = i;
   for_each_bond(world, [&](std::uint32_t slot_a, std::uint32_t slot_b) {
-    const Body<S>&a = world.bodies[slot_a], &b = world.bodies[slot_b];
-    if (!a.dynamic() || !b.dynamic() || !a.awake() || !b.awake()) return;
-    const std::uint32_t ra = find_root(parent, a.awake_index), rb = find_root(parent, b.awake_index);
+    const std::uint32_t a = member[slot_a], b = member[slot_b];
+    if (a >= kMover || b >= kMover) return;
+    const std::uint32_t ra = find_root(parent, a), rb = find_root(parent, b);
     parent[ra < rb ? rb : ra] = ra < rb ? ra : rb;
   });
 }
@@ -61,17 +73,14 @@ template <class S>
 void mark_restless(WorldData<S>& world) {
   std::vector<std::uint8_t>& restless = world.scratch.restless;
   std::vector<std::uint32_t>& parent = world.scratch.parent;
+  const std::vector<std::uint32_t>& member = world.scratch.member;
   restless.assign(world.awake.size(), 0);
   for (std::uint32_t i = 0; i < world.awake.size(); ++i)
     if (!restful(world.bodies[world.awake[i]])) restless[find_root(parent, i)] = 1;
   for_each_bond(world, [&](std::uint32_t slot_a, std::uint32_t slot_b) {
-    const Body<S>&a = world.bodies[slot_a], &b = world.bodies[slot_b];
-    const auto moved_by = [&](const Body<S>& body, const Body<S>& mover) {
-      if (body.dynamic() && body.awake() && mover.body_type() == BodyType::kKinematic && mover.awake())
-        restless[find_root(parent, body.awake_index)] = 1;
-    };
-    moved_by(a, b);
-    moved_by(b, a);
+    const std::uint32_t a = member[slot_a], b = member[slot_b];
+    if (a == kMover && b < kMover) restless[find_root(parent, b)] = 1;
+    if (b == kMover && a < kMover) restless[find_root(parent, a)] = 1;
   });
 }
 
@@ -80,6 +89,7 @@ void mark_restless(WorldData<S>& world) {
 template <class S>
 void update_sleep(WorldData<S>& world) {
   if (!anyone_restful(world)) return;
+  list_members(world);
   join_islands(world);
   mark_restless(world);
   std::vector<std::uint32_t>& tired = world.scratch.stack;
