@@ -293,7 +293,7 @@ class Lookout {
       return;  // it looks for itself, in every sub-iteration
     update_manifold(world_, c);
     if (c.count == 0) return;
-    if (!c.touching()) c.approach = approach_speed(world_, c);
+    if (!c.touching() || world_.settings.hit_events) c.approach = approach_speed(world_, c);
     if (!c.sensor()) world_.scratch.findings[index] = kMet;
   }
 
