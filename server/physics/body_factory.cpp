@@ -277,6 +277,13 @@ void count_needs(WorldData<S>& world, std::uint32_t slot, int sign) {
 }
 
 template <class S>
+void insert_proxy(WorldData<S>& world, Proxy p) {
+  const Body<S>& body = world.bodies[world.shapes[p].body];
+  world.broad_phase->insert(p, world.shapes[p].fat, body.body_type() == BodyType::kStatic);
+  world.broad_phase->set_resting(p, !body.awake());
+}
+
+template <class S>
 void update_model(WorldData<S>& world) {
   const BroadPhaseKind before = world.model.broad_phase;
   world.model = choose_model(world.settings, world.needs);
@@ -284,8 +291,7 @@ void update_model(WorldData<S>& world) {
   world.broad_phase = BroadPhase<S>::create(world.model.broad_phase);
   for (Proxy p = 0; p < world.shapes.size(); ++p) {
     const Shape<S>& shape = world.shapes[p];
-    if (shape.alive())
-      world.broad_phase->insert(p, shape.fat, world.bodies[shape.body].body_type() == BodyType::kStatic);
+    if (shape.alive()) insert_proxy(world, p);
   }
 }
 
@@ -329,11 +335,10 @@ std::uint32_t create_body(WorldData<S>& world, const BodyDef& def) {
   if (def.type == BodyType::kKinematic ? moving : def.awake) wake_body(world, slot);
   note_shortcuts(world, slot);
   refresh_places(world, slot);
-  const bool still = def.type == BodyType::kStatic;
   for (Proxy p = body.first_shape; p != kNone; p = world.shapes[p].next) {
     Shape<S>& shape = world.shapes[p];
     shape.fat = swept_bounds(world, p).expanded(shape.reach + shape.margin);
-    if (world.broad_phase) world.broad_phase->insert(p, shape.fat, still);
+    if (world.broad_phase) insert_proxy(world, p);
     mark_moved(world, p);
   }
   update_model(world);

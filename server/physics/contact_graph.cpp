@@ -84,9 +84,17 @@ void deactivate(WorldData<S>& world, std::uint32_t contact) {
 }
 
 template <class S>
+void set_resting(WorldData<S>& world, const Body<S>& body) {
+  if (!world.broad_phase) return;
+  for (Proxy p = body.first_shape; p != kNone; p = world.shapes[p].next)
+    world.broad_phase->set_resting(p, !body.awake());
+}
+
+template <class S>
 void wake_one(WorldData<S>& world, std::uint32_t slot) {
   Body<S>& body = world.bodies[slot];
   body.flags |= kBodyAwake;
+  set_resting(world, body);
   body.sleep_time = 0;
   body.awake_index = static_cast<std::uint32_t>(world.awake.size());
   world.awake.push_back(slot);
@@ -201,6 +209,7 @@ void put_to_sleep(WorldData<S>& world, std::uint32_t slot) {
   world.awake.pop_back();
   body.awake_index = kNone;
   body.flags &= ~kBodyAwake;
+  set_resting(world, body);
   world.motions[slot] = Motion<S>{};
   for_each_contact_of(world, slot, [&](std::uint32_t contact) {
     const Contact<S>& c = world.contacts[contact];

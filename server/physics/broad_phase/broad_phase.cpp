@@ -24,11 +24,7 @@ std::unique_ptr<BroadPhase<S>> BroadPhase<S>::create(BroadPhaseKind kind) {
 }
 
 template <class S>
-void BroadPhase<S>::find_pairs_where(std::span<const Proxy> moved, const PairFilter& wanted,
-                                     std::vector<std::pair<Proxy, Proxy>>& pairs) const {
-  find_pairs(moved, pairs);
-  std::erase_if(pairs, [&](const auto& pair) { return !wanted(pair.first, pair.second); });
-}
+void BroadPhase<S>::set_resting(Proxy, bool) {}
 
 template <class S>
 void BroadPhase<S>::find_new_pairs(std::span<const Proxy> moved, std::vector<std::pair<Proxy, Proxy>>& pairs) {

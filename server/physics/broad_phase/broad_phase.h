@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <span>
 #include <utility>
@@ -26,15 +25,13 @@ class BroadPhase {
   virtual void insert(Proxy proxy, const Aabb<S>& bounds, bool still) = 0;
   virtual void remove(Proxy proxy) = 0;
   virtual void move(Proxy proxy, const Aabb<S>& bounds) = 0;
+  // A hint: of a body that sleeps, whose proxies will hardly be moved. It changes no answer; unknown proxies and still
+  // ones are ignored.
+  virtual void set_resting(Proxy proxy, bool resting);
 
   // All pairs (low, high) with overlapping bounds of which at least one is in `moved` (distinct proxies, any order)
   // and not both are still. Sorted, each once. `pairs` is cleared first.
   virtual void find_pairs(std::span<const Proxy> moved, std::vector<std::pair<Proxy, Proxy>>& pairs) const = 0;
-
-  // Of these pairs the ones that `wanted` lets pass: cheaper than to sort all and drop many.
-  using PairFilter = std::function<bool(Proxy, Proxy)>;
-  virtual void find_pairs_where(std::span<const Proxy> moved, const PairFilter& wanted,
-                                std::vector<std::pair<Proxy, Proxy>>& pairs) const;
 
   // Of the pairs that find_pairs would report those whose bounds did not overlap when this was last asked: what a
   // caller that keeps its pairs has not met yet. It may name others too, as after a rebuild.
@@ -53,6 +50,7 @@ class BroadPhase {
   // Every insert and move tells of the bounds here.
   void note(Proxy proxy, const Aabb<S>& bounds);
   void note_new(Proxy proxy, const Aabb<S>& bounds);
+  const Aabb<S>& bounds_of(Proxy proxy) const { return noted_[proxy].now; }
   bool knows(Proxy a, Proxy b) const { return noted_[a].before.overlaps(noted_[b].before); }
   void settle(std::span<const Proxy> moved);
 

@@ -99,8 +99,8 @@ class TreeJoin {
 
 template <class S>
 void Bvh<S>::insert(Proxy proxy, const Aabb<S>& bounds, bool still) {
-  if (proxy >= still_.size()) still_.resize(proxy + 1, 0);
-  still_[proxy] = still ? 1 : 0;
+  if (proxy >= groups_.size()) groups_.resize(proxy + 1, kAbsent);
+  groups_[proxy] = still ? kStill : kMoving;
   this->note_new(proxy, bounds);
   tree_of(proxy).insert(proxy, bounds);
 }
@@ -108,6 +108,7 @@ void Bvh<S>::insert(Proxy proxy, const Aabb<S>& bounds, bool still) {
 template <class S>
 void Bvh<S>::remove(Proxy proxy) {
   tree_of(proxy).remove(proxy);
+  groups_[proxy] = kAbsent;
 }
 
 template <class S>
@@ -117,60 +118,71 @@ void Bvh<S>::move(Proxy proxy, const Aabb<S>& bounds) {
 }
 
 template <class S>
+void Bvh<S>::set_resting(Proxy proxy, bool resting) {
+  const Group group = resting ? kResting : kMoving;
+  if (proxy >= groups_.size() || groups_[proxy] >= kStill || groups_[proxy] == group) return;
+  tree_of(proxy).remove(proxy);
+  groups_[proxy] = group;
+  tree_of(proxy).insert(proxy, this->bounds_of(proxy));
+}
+
+template <class S>
 void Bvh<S>::refresh() const {
-  still_tree_.refresh();
-  moving_tree_.refresh();
+  for (PackedTree<S>& tree : trees_) tree.refresh();
 }
 
 template <class S>
 void Bvh<S>::find_pairs(std::span<const Proxy> moved, std::vector<std::pair<Proxy, Proxy>>& pairs) const {
   join(moved, [](Proxy, Proxy) { return true; });
-  sorter_.sort_into(static_cast<std::uint32_t>(still_.size()), pairs);
-}
-
-template <class S>
-void Bvh<S>::find_pairs_where(std::span<const Proxy> moved, const typename BroadPhase<S>::PairFilter& wanted,
-                              std::vector<std::pair<Proxy, Proxy>>& pairs) const {
-  join(moved, [&wanted](Proxy a, Proxy b) { return wanted(a, b); });
-  sorter_.sort_into(static_cast<std::uint32_t>(still_.size()), pairs);
+  sorter_.sort_into(static_cast<std::uint32_t>(groups_.size()), pairs);
 }
 
 template <class S>
 void Bvh<S>::find_new_pairs(std::span<const Proxy> moved, std::vector<std::pair<Proxy, Proxy>>& pairs) {
   join(moved, [this](Proxy a, Proxy b) { return !this->knows(a, b); });
-  sorter_.sort_into(static_cast<std::uint32_t>(still_.size()), pairs);
+  sorter_.sort_into(static_cast<std::uint32_t>(groups_.size()), pairs);
   this->settle(moved);
+}
+
+template <class S>
+template <class Whole, class One>
+std::array<std::uint32_t, 3> Bvh<S>::for_moved(std::span<const Proxy> moved, const Whole& whole, const One& one) const {
+  std::array<std::uint32_t, 3> counts{};
+  for (const Proxy proxy : moved) ++counts[groups_[proxy]];
+  for (const Group group : {kMoving, kResting, kStill})
+    if (counts[group] != 0 && counts[group] == trees_[group].size()) whole(trees_[group]);
+  for (const Proxy proxy : moved)
+    if (counts[groups_[proxy]] != tree_of(proxy).size()) one(tree_of(proxy), proxy);
+  return counts;
 }
 
 template <class S>
 template <class Wanted>
 void Bvh<S>::join(std::span<const Proxy> moved, const Wanted& wanted) const {
   refresh();
-  std::size_t moved_count = 0;  // of the moving tree
-  for (const Proxy proxy : moved) moved_count += still_[proxy] == 0 ? 1 : 0;
-  const bool all_moved = moved_count != 0 && moved_count == moving_tree_.size();
-  if (all_moved) moving_tree_.mark_all();
-  for (const Proxy proxy : moved) {
-    if (!all_moved || still_[proxy] != 0) tree_of(proxy).mark(proxy);
-  }
   sorter_.clear();
-  if (!moving_tree_.empty()) {
-    TreeJoin<S, Wanted>(moving_tree_, moving_tree_, wanted, sorter_).within(moving_tree_.top_level(), 0);
-    if (!still_tree_.empty()) TreeJoin<S, Wanted>(moving_tree_, still_tree_, wanted, sorter_).all_between();
+  using Tree = PackedTree<S>;
+  const auto marked = for_moved(
+      moved, [](Tree& tree) { tree.mark_all(); }, [](Tree& tree, Proxy proxy) { tree.mark(proxy); });
+  for (const Group a : {kMoving, kResting}) {
+    if (trees_[a].empty()) continue;
+    if (marked[a] != 0) TreeJoin<S, Wanted>(trees_[a], trees_[a], wanted, sorter_).within(trees_[a].top_level(), 0);
+    for (const Group b : {kResting, kStill}) {
+      if (b <= a || trees_[b].empty() || marked[a] + marked[b] == 0) continue;
+      TreeJoin<S, Wanted>(trees_[a], trees_[b], wanted, sorter_).all_between();
+    }
   }
-  if (all_moved) moving_tree_.unmark_all();
-  for (const Proxy proxy : moved) {
-    if (!all_moved || still_[proxy] != 0) tree_of(proxy).unmark(proxy);
-  }
+  for_moved(
+      moved, [](Tree& tree) { tree.unmark_all(); }, [](Tree& tree, Proxy proxy) { tree.unmark(proxy); });
 }
 
 template <class S>
 void Bvh<S>::query(const Aabb<S>& box, std::vector<Proxy>& out) const {
   refresh();
   out.clear();
-  for (const PackedTree<S>* tree : {&still_tree_, &moving_tree_}) {
-    tree->visit([&](const Box4<S>& boxes) { return boxes.overlap_mask(box); },
-                [&](Proxy proxy, const Box4<S>&, int) { out.push_back(proxy); });
+  for (const PackedTree<S>& tree : trees_) {
+    tree.visit([&](const Box4<S>& boxes) { return boxes.overlap_mask(box); },
+               [&](Proxy proxy, const Box4<S>&, int) { out.push_back(proxy); });
   }
   std::sort(out.begin(), out.end());
 }
@@ -188,8 +200,8 @@ void Bvh<S>::query_segment(const Vec<S>& origin, const Vec<S>& translation, std:
     }
     return met;
   };
-  for (const PackedTree<S>* tree : {&still_tree_, &moving_tree_}) {
-    tree->visit(mask_of, [&](Proxy proxy, const Box4<S>&, int) { out.push_back(proxy); });
+  for (const PackedTree<S>& tree : trees_) {
+    tree.visit(mask_of, [&](Proxy proxy, const Box4<S>&, int) { out.push_back(proxy); });
   }
   std::sort(out.begin(), out.end());
 }

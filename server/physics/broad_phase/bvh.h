@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -11,9 +12,10 @@
 
 namespace urto {
 
-// Two packed trees, one of still proxies and one of the others. Pairs come from joining the second with itself and with
-// the first: whole groups of neighbours are tested against each other, so that nothing is searched from the root, and
-// branches without a moved proxy are left out. The default for more than a handful of bodies.
+// Three packed trees: of proxies that move, of those that rest, and of those that are still. Pairs come from joining
+// each with itself and with the others: whole groups of neighbours are tested against each other, so that nothing is
+// searched from the root, and branches without a moved proxy are left out, as whole trees are. So what rests costs next
+// to nothing. The default for more than a handful of bodies.
 //
 // The trees are brought up to date by the first question after a change; const calls may not run side by side.
 template <class S>
@@ -22,23 +24,29 @@ class Bvh final : public BroadPhase<S> {
   void insert(Proxy proxy, const Aabb<S>& bounds, bool still) override;
   void remove(Proxy proxy) override;
   void move(Proxy proxy, const Aabb<S>& bounds) override;
+  void set_resting(Proxy proxy, bool resting) override;
   void find_pairs(std::span<const Proxy> moved, std::vector<std::pair<Proxy, Proxy>>& pairs) const override;
-  void find_pairs_where(std::span<const Proxy> moved, const typename BroadPhase<S>::PairFilter& wanted,
-                        std::vector<std::pair<Proxy, Proxy>>& pairs) const override;
   void find_new_pairs(std::span<const Proxy> moved, std::vector<std::pair<Proxy, Proxy>>& pairs) override;
   void query(const Aabb<S>& box, std::vector<Proxy>& out) const override;
   void query_segment(const Vec<S>& origin, const Vec<S>& translation, std::vector<Proxy>& out) const override;
 
  private:
-  PackedTree<S>& tree_of(Proxy proxy) const { return still_[proxy] != 0 ? still_tree_ : moving_tree_; }
+  enum Group : std::uint8_t { kMoving, kResting, kStill, kAbsent };
+
+  PackedTree<S>& tree_of(Proxy proxy) const { return trees_[groups_[proxy]]; }
   void refresh() const;
   // Hands overlapping pairs to the sorter, of which one has moved and which `wanted` lets pass.
   template <class Wanted>
   void join(std::span<const Proxy> moved, const Wanted& wanted) const;
 
-  std::vector<std::uint8_t> still_;  // by proxy
+  // Calls whole(tree) for each tree all of whose proxies have moved, and one(tree, proxy) for each that has in the
+  // others. How many have in each tree.
+  template <class Whole, class One>
+  std::array<std::uint32_t, 3> for_moved(std::span<const Proxy> moved, const Whole& whole, const One& one) const;
+
+  std::vector<Group> groups_;  // by proxy
   // Caches of the bounds; see above.
-  mutable PackedTree<S> still_tree_, moving_tree_;
+  mutable std::array<PackedTree<S>, 3> trees_;  // by group
   mutable PairSorter sorter_;
 };
 
