@@ -112,9 +112,10 @@ HWY_INLINE Columns<S> load_rows(const Row& row) {
     HWY_ALIGN S rows[4 * kLanes<S>];
     const std::size_t n = hn::Lanes(Tag<S>());
     for (std::size_t i = 0; i < n; ++i) std::memcpy(rows + 4 * i, row(i), 4 * sizeof(S));
-    Columns<S> m;
-    hn::LoadInterleaved4(Tag<S>(), rows, m.c0, m.c1, m.c2, m.c3);
-    return m;
+    // Not into a Columns at once: its implied constructor may be made outside of the instruction set's pragma.
+    Vector<S> c0, c1, c2, c3;
+    hn::LoadInterleaved4(Tag<S>(), rows, c0, c1, c2, c3);
+    return {c0, c1, c2, c3};
   }
 }
 
