@@ -14,12 +14,12 @@ struct alignas(16 * sizeof(S)) Place {
   S half_width = 0, half_height = 0;  // m, of a box
   S offset_x = 0, offset_y = 0;       // m, from the body's centre of mass to the centroid, world axes
   S reach = 0;                        // m, speculative distance
-  S bound = 0;                        // m, no more than this is added to it for the way the shapes close in
-  S turn = 0;                         // m, how far the body's farthest point turns in a step
-  S box = 0;                          // 1: a sharp box, which box_kernels.h may take; 0: any other shape
-  S way_x = 0, way_y = 0;             // m, how far the body comes in a step at its velocity
-  S vertices = 0;                     // of a sharp polygon whose axes are its body's (polygon_kernels.h); else 0
-  S fast = 0;  // 1: may pass through something in the step at hand (continuous.h); 0 between steps
+  S bound = 0;             // m, half of a dynamic body's least extent: no more is added to the reach for its way
+  S turn = 0;              // m, how far the body's farthest point turns in a step
+  S box = 0;               // 1: a sharp box, which box_kernels.h may take; 0: any other shape
+  S way_x = 0, way_y = 0;  // m, how far the body comes in a step at its velocity
+  S vertices = 0;          // of a sharp polygon whose axes are its body's (polygon_kernels.h); else 0
+  S fast = 0;              // 1: may pass through something in the step at hand (continuous.h); 0 between steps
 };
 
 // Who finds out where a pair touches: a kernel that looks at many side by side, or the general routine.

@@ -11,6 +11,12 @@ namespace {
 
 using namespace testing;
 
+WorldSettings weightless() {
+  WorldSettings settings;
+  settings.gravity = {0, 0};
+  return settings;
+}
+
 // A plate of 400 m/s against a wall 0.1 m thick, still, turning, and in both precisions.
 class PlateTest : public ::testing::TestWithParam<std::tuple<Precision, double>> {};
 INSTANTIATE_TEST_SUITE_P(Spins, PlateTest,
@@ -34,11 +40,9 @@ TEST_P(PlateTest, DoesNotCrossAThinWall) {
 }
 
 TEST(ContinuousTest, BulletsMeetInTheAir) {
-  WorldSettings settings;
-  settings.gravity = {0, 0};
   int passed = 0;
   for (int shot = 0; shot < 64; ++shot) {
-    auto world = make_world(settings);
+    auto world = make_world(weightless());
     BodyDef left = ball_body(-10 - 0.05 * shot, 0, 0.05), right = ball_body(10, 0, 0.05);
     left.velocity = {200, 0};
     right.velocity = {-200, 0};
@@ -50,11 +54,9 @@ TEST(ContinuousTest, BulletsMeetInTheAir) {
 }
 
 TEST(ContinuousTest, AFastBoxHitsADynamicWall) {
-  WorldSettings settings;
-  settings.gravity = {0, 0};
   int passed = 0;
   for (int shot = 0; shot < 64; ++shot) {
-    auto world = make_world(settings);
+    auto world = make_world(weightless());
     BodyDef wall = box_body(0, 0, 0.1, 10);
     wall.shapes[0].material.density = 1000;
     const BodyId b = add(*world, wall);
@@ -68,8 +70,7 @@ TEST(ContinuousTest, AFastBoxHitsADynamicWall) {
 }
 
 TEST(ContinuousTest, OffMeansThatThinWallsAreCrossed) {
-  WorldSettings settings;
-  settings.gravity = {0, 0};
+  WorldSettings settings = weightless();
   settings.continuous = false;
   auto world = make_world(settings);
   add(*world, box_body(0, 0, 0.1, 40, BodyType::kStatic));
@@ -78,12 +79,6 @@ TEST(ContinuousTest, OffMeansThatThinWallsAreCrossed) {
   const BodyId id = add(*world, plate);
   step_for(*world, 1);
   EXPECT_GT(world->body(id)->position.x(), 1);  // so the tests above test something
-}
-
-WorldSettings weightless() {
-  WorldSettings settings;
-  settings.gravity = {0, 0};
-  return settings;
 }
 
 BodyDef thrown(BodyDef def, const Vec2& velocity, double restitution = 0) {

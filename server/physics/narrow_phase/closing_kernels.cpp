@@ -26,7 +26,7 @@ HWY_INLINE std::uint32_t closing_vector(const Place<S>* places, const std::uint3
   const auto b3 = load_rows<S>([&](std::size_t i) { return &places[b[i]].way_x; });
   const auto wx = hn::Sub(b3.c0, a3.c0), wy = hn::Sub(b3.c1, a3.c1);
   const auto way = hn::Add(hn::Sqrt(hn::Add(hn::Mul(wx, wx), hn::Mul(wy, wy))), hn::Add(a2.c2, b2.c2));
-  // A bound is half a thickness.
+  // A bound is half of a least extent.
   const auto fine = hn::Mul(set(S(2 * kFastFraction)), smaller(a2.c1, b2.c1));
   const auto closing = hn::And(hn::Gt(hn::Add(a3.c3, b3.c3), hn::Zero(Tag<S>())), hn::Gt(way, fine));
   std::uint8_t bits[8] = {};
