@@ -66,6 +66,7 @@ template <class S>
 void activate(WorldData<S>& world, std::uint32_t contact) {
   const Contact<S>& c = world.contacts[contact];
   if (c.index != kNone) return;
+  if (c.count > 0) world.resting_depth.reset();
   if (world.settings.solver == SolverKind::kSoftStep && c.count > 0 && !c.sensor()) {
     insert_lane(world, contact);
   } else {
@@ -133,6 +134,12 @@ std::uint32_t create_contact(WorldData<S>& world, Proxy low, Proxy high) {
 }
 
 template <class S>
+void toggle_touch(WorldData<S>& world, Contact<S>& contact) {
+  contact.flags ^= kContactTouching;
+  contact.touching() ? ++world.touching_count : --world.touching_count;
+}
+
+template <class S>
 ContactEvent end_event(const WorldData<S>& world, const Contact<S>& contact) {
   ContactEvent event;
   event.kind = ContactEvent::Kind::kEnd;
@@ -145,7 +152,11 @@ ContactEvent end_event(const WorldData<S>& world, const Contact<S>& contact) {
 template <class S>
 void destroy_contact(WorldData<S>& world, std::uint32_t slot) {
   Contact<S>& c = world.contacts[slot];
-  if (c.touching()) world.events.push_back(end_event(world, c));
+  if (c.touching()) {
+    toggle_touch(world, c);
+    world.events.push_back(end_event(world, c));
+  }
+  if (c.index == kNone && c.count > 0) world.resting_depth.reset();
   deactivate(world, slot);
   unlink_edge(world, slot, 0, c.body_a);
   unlink_edge(world, slot, 1, c.body_b);
@@ -211,6 +222,7 @@ void put_to_sleep(WorldData<S>& world, std::uint32_t slot) {
   body.flags &= ~kBodyAwake;
   set_resting(world, body);
   world.motions[slot] = Motion<S>{};
+  world.resting_depth.reset();
   for_each_contact_of(world, slot, [&](std::uint32_t contact) {
     const Contact<S>& c = world.contacts[contact];
     const bool active = world.bodies[c.body_a].awake() || world.bodies[c.body_b].awake();
@@ -242,6 +254,7 @@ void release_lane(WorldData<S>& world, std::uint32_t contact) {
   template void put_to_sleep(WorldData<S>&, std::uint32_t);           \
   template void give_lane(WorldData<S>&, std::uint32_t);              \
   template void release_lane(WorldData<S>&, std::uint32_t);           \
+  template void toggle_touch(WorldData<S>&, Contact<S>&);             \
   template ContactEvent end_event(const WorldData<S>&, const Contact<S>&);
 URTO_INSTANTIATE(float)
 URTO_INSTANTIATE(double)

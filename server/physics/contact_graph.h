@@ -31,6 +31,10 @@ void release_lane(WorldData<S>& world, std::uint32_t contact);
 template <class S>
 void put_to_sleep(WorldData<S>& world, std::uint32_t slot);
 
+// Its touch begins, or ends if it had begun.
+template <class S>
+void toggle_touch(WorldData<S>& world, Contact<S>& contact);
+
 template <class S>
 ContactEvent end_event(const WorldData<S>& world, const Contact<S>& contact);
 

@@ -178,7 +178,7 @@ void release_parted(WorldData<S>& world, std::uint32_t slot) {
   c.nx = c.ny = S(0);
   c.points[0] = c.points[1] = ManifoldPoint<S>{};
   if (!c.touching()) return;
-  c.flags ^= kContactTouching;
+  toggle_touch(world, c);
   world.events.push_back(end_event(world, c));
 }
 
@@ -371,7 +371,7 @@ std::uint32_t meeting_lanes(const ContactBlock<S>& block, const ContactBlockRest
 
 template <class S>
 void report_lane(WorldData<S>& world, std::uint32_t slot, const ContactBlockRest<S>& rest, std::uint32_t lane) {
-  world.contacts[slot].flags ^= kContactTouching;
+  toggle_touch(world, world.contacts[slot]);
   Contact<S> c = settled(world, slot);
   c.approach = max_of(S(0), -rest.approach[0][lane]);
   world.events.push_back(c.touching() ? begin_event(world, c) : end_event(world, c));
@@ -400,7 +400,7 @@ void report_active(WorldData<S>& world) {
     Contact<S>& c = world.contacts[active.contact];
     const bool meeting = meets(c);
     if (meeting == c.touching()) continue;
-    c.flags ^= kContactTouching;
+    toggle_touch(world, c);
     world.events.push_back(meeting ? begin_event(world, c) : end_event(world, c));
   }
 }

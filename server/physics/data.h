@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -96,6 +97,8 @@ struct WorldData {
   ContactSet<S> touching;        // the lanes of contacts with an awake body that touch
   std::vector<Place<S>> places;  // by shape slot: as of the start of the step, or of falling asleep
   PairSet pair_set;
+  std::uint32_t touching_count = 0;        // of contacts that have begun and not ended
+  mutable std::optional<S> resting_depth;  // m ≤ 0, the least separation of a contact that sleeps; none: not known
 
   std::shared_ptr<Team> team = std::make_shared<Team>(1);
 

@@ -128,7 +128,7 @@ Energy energy_of(const WorldData<S>& world) {
     const double w = double(m.w);
     out.kinetic += 0.5 * (mass * dot<double>(v, v) + inertia * w * w);
     out.potential -= mass * double(b.gravity_scale) * dot<double>(world.settings.gravity, x);
-    out.potential += field_potential(world.settings.fields, x, mass);
+    if (!world.settings.fields.empty()) out.potential += field_potential(world.settings.fields, x, mass);
     out.momentum += mass * v;
     out.angular_momentum += mass * cross<double>(x, v) + inertia * w;
   }

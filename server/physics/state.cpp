@@ -214,6 +214,7 @@ void rebuild(WorldData<S>& world, const std::vector<std::uint32_t>& lanes) {
   world.pair_set.clear();
   for (const Contact<S>& c : world.contacts)
     if (c.alive()) world.pair_set.insert(c.shape_a, c.shape_b);
+  for (const Contact<S>& c : world.contacts) world.touching_count += c.touching();
   world.needs = Needs{};
   for (std::uint32_t slot = 0; slot < world.bodies.size(); ++slot)
     if (world.bodies[slot].alive()) count_needs(world, slot, +1);

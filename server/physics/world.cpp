@@ -88,17 +88,19 @@ WorldOf<S>::WorldOf(const WorldSettings& settings, Clock clock, unsigned threads
 template <class S>
 template <class PhaseFunction>
 void WorldOf<S>::run(Phase phase, PhaseFunction&& function) {
-  if (!clock_) return function();
-  const std::uint64_t start = clock_();
   function();
-  const double ms = static_cast<double>(clock_() - start) / kNanosecondsPerMillisecond;
+  if (!clock_) return;
+  const std::uint64_t now = clock_();
+  const double ms = static_cast<double>(now - phase_start_) / kNanosecondsPerMillisecond;
   profile_.ms[static_cast<std::size_t>(phase)] = ms;
   profile_.step_ms += ms;
+  phase_start_ = now;
 }
 
 template <class S>
 void WorldOf<S>::step() {
   profile_ = Profile{};
+  if (clock_) phase_start_ = clock_();
   data_.events.erase(data_.events.begin(), data_.events.begin() + static_cast<std::ptrdiff_t>(data_.events_reported));
   data_.joint_events.clear();
   run(Phase::kUpdateBroadPhase, [&] { update_broad_phase(data_); });

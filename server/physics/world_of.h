@@ -87,6 +87,7 @@ class WorldOf final : public World {
   JointSet<S> joint_set_;  // kept for its capacity
   PreciseSolver precise_;  // kept for its capacity
   Clock clock_;
+  std::uint64_t phase_start_ = 0;  // ns
   Profile profile_;
 };
 
