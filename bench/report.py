@@ -7,7 +7,8 @@ import json
 import os
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from datetime import datetime, timezone
 from pathlib import Path
 from typing import Any
@@ -17,6 +18,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from building import ROOT, about_machine, fail, say  # noqa: E402
 from reporting import diagrams, measure, pages, plan  # noqa: E402
+from reporting.notes import Notes  # noqa: E402
 
 Record = dict[str, Any]
 
@@ -33,23 +35,40 @@ def parse_arguments() -> argparse.Namespace:
     return parser.parse_args()
 
 
-def measure_cases(programs: dict[str, Path], cases: Sequence[Record], quick: bool) -> list[Record]:
+class Parts:
+    """How long each part of a report took."""
+
+    def __init__(self) -> None:
+        self.seconds: dict[str, float] = {}
+
+    @contextmanager
+    def part(self, name: str) -> Iterator[None]:
+        start = time.monotonic()
+        yield
+        self.seconds[name] = self.seconds.get(name, 0.0) + time.monotonic() - start
+        say(f"== {name} took {self.seconds[name]:.0f} s")
+
+    def __str__(self) -> str:
+        return ", ".join(f"{name} {seconds:.0f} s" for name, seconds in self.seconds.items())
+
+
+def measure_cases(bench: measure.Bench, cases: Sequence[Record], quick: bool) -> list[Record]:
     points = []
     for case in cases:
         curves = not quick or case["row"] in QUICK_CURVES
         points += plan.points_of(case, plan.QUICK if quick else plan.FULL, curves)
-    return measure.measure_all(programs, points, measure.QUICK if quick else measure.FULL)
+    return measure.measure_all(bench, points, measure.QUICK if quick else measure.FULL)
 
 
-def measure_stages(programs: dict[str, Path], quick: bool) -> tuple[list[Record], list[Record]]:
+def measure_stages(bench: measure.Bench, quick: bool) -> tuple[list[Record], list[Record]]:
     effort = measure.QUICK if quick else measure.FULL
-    stages = [measure.count_rectangles(programs["urto"], stage, effort) for stage in plan.STAGES]
+    stages = [measure.count_rectangles(bench, stage, effort) for stage in plan.STAGES]
     points = [
-        plan.Point("urto", case, method, "")
+        plan.Point("urto", case, method, "")  # its time is not shown
         for case in plan.STAGE_CASES
         for method in dict.fromkeys(stage.method for stage in plan.STAGES)
     ]
-    return stages, measure.measure_all(programs, points, effort)
+    return stages, measure.measure_all(bench, points, effort)
 
 
 def by_case(records: Sequence[Record]) -> dict[str, list[Record]]:
@@ -195,42 +214,58 @@ def features_page(features: Sequence[Record]) -> list[str]:
     ]
 
 
+def write_pages(out: Path, data: Record, about: list[str]) -> None:
+    cases, results = data["cases"], by_case(data["points"])
+    drawn, orders = draw_all(out, cases, results)
+    page = accuracy_page(cases, results, drawn, orders) + about
+    (out / "accuracy.md").write_text("\n".join(page) + "\n", encoding="utf-8")
+    if data["rectangles"]:
+        diagrams.draw_rectangles(out / "diagrams" / "rectangles.svg", data["rectangles"], measure.FRAME_MS)
+        page = rectangles_page(data["rectangles"], by_case(data["rectangles_errors"])) + about
+        (out / "rectangles.md").write_text("\n".join(page) + "\n", encoding="utf-8")
+    if data["features"]:
+        page = features_page(data["features"]) + about
+        (out / "features.md").write_text("\n".join(page) + "\n", encoding="utf-8")
+    text = json.dumps(data, ensure_ascii=False, separators=(",", ":")).replace('},{"engine"', '},\n{"engine"')
+    (out / "accuracy.json").write_text(text + "\n", encoding="utf-8")
+
+
 def main() -> None:
     arguments = parse_arguments()
     start, started = time.monotonic(), datetime.now(timezone.utc).strftime("%Y-%m-%d %H:%M UTC")
-    machine = about_machine()
-    programs = measure.build(arguments.jobs)
-    measure.forget_notes_older_than(programs)
+    machine, parts = about_machine(), Parts()
+    with parts.part("building"):
+        programs = measure.build(arguments.jobs)
+    notes = Notes(measure.NOTES, programs)
+    bench = measure.Bench(programs, notes)
     rows = {int(row) for row in arguments.row.split(",") if row}
-    cases = [case for case in measure.cases(programs) if not rows or case["row"] in rows]
+    cases = [case for case in bench.cases() if not rows or case["row"] in rows]
     if arguments.quick:
         cases = [case for case in cases if not case["long"]]
     if not cases:
         fail("no case has such a row")
-    out: Path = arguments.out
-    records = measure_cases(programs, cases, arguments.quick)
-    stages, stage_errors = ([], []) if rows else measure_stages(programs, arguments.quick)
-    results = by_case(records)
-    drawn, orders = draw_all(out, cases, results)
+    with parts.part("cases"):
+        records = measure_cases(bench, cases, arguments.quick)
+    stages: list[Record] = []
+    stage_errors: list[Record] = []
+    features: list[Record] = []
+    if not rows:
+        with parts.part("rectangles"):
+            stages, stage_errors = measure_stages(bench, arguments.quick)
+        with parts.part("features"):
+            features = measure.features(bench, arguments.quick)
     machine["load at end"] = os.getloadavg()[0]
     took = time.monotonic() - start
     versions = {record["engine"]: record["version"] for record in records if "version" in record}
     about = pages.about(machine, versions, started, took, arguments.quick)
-    page = accuracy_page(cases, results, drawn, orders) + about
-    (out / "accuracy.md").write_text("\n".join(page) + "\n", encoding="utf-8")
-    if stages:
-        diagrams.draw_rectangles(out / "diagrams" / "rectangles.svg", stages, measure.FRAME_MS)
-        page = rectangles_page(stages, by_case(stage_errors)) + about
-        (out / "rectangles.md").write_text("\n".join(page) + "\n", encoding="utf-8")
-    features = [] if rows else measure.features(programs["urto"], arguments.quick)
-    if features:
-        (out / "features.md").write_text("\n".join(features_page(features) + about) + "\n", encoding="utf-8")
     data = {"started": started, "quick": arguments.quick, "machine": machine, "versions": versions, "cases": cases}
-    data |= {"features": features}
+    data |= {"took_s": parts.seconds, "features": features}
     data |= {"points": records, "rectangles": stages, "rectangles_errors": stage_errors}
-    text = json.dumps(data, ensure_ascii=False, separators=(",", ":")).replace('},{"engine"', '},\n{"engine"')
-    (out / "accuracy.json").write_text(text + "\n", encoding="utf-8")
-    say(f"Finished in {took / 60:.1f} min: {out / 'accuracy.md'}")
+    with parts.part("drawing"):
+        write_pages(arguments.out, data, about)
+    if not rows:
+        notes.forget()  # the next report is a new one
+    say(f"Finished in {(time.monotonic() - start) / 60:.1f} min ({parts}): {arguments.out / 'accuracy.md'}")
 
 
 if __name__ == "__main__":

@@ -4,19 +4,23 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import subprocess
 import time
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from building import BUILD, PEERS, ROOT, box2d_sources, build_step, say
 
+from reporting.notes import Notes
 from reporting.plan import Point, Stage
 
 Record = dict[str, Any]
 
+EXIT = "exit status"
 RECTANGLES_MAX = 100_000
 FRAME_MS = 1000 / 60
 
@@ -30,7 +34,7 @@ class Effort:
 
 
 QUICK = Effort(runs=3, budget_s=0.1, timeout_s=10, steps=160)
-FULL = Effort(runs=20, budget_s=3, timeout_s=600, steps=480)
+FULL = Effort(runs=20, budget_s=0.1, timeout_s=600, steps=240)
 
 
 def build(jobs: int) -> dict[str, Path]:
@@ -53,95 +57,121 @@ def build(jobs: int) -> dict[str, Path]:
     return {engine: program for engine, program in programs.items() if program.exists()}
 
 
-def _run(command: Sequence[str], timeout_s: float) -> Record:
+def _run(command: Sequence[str], timeout_s: float) -> list[Record]:
+    """The lines of JSON that a program prints; what Chipmunk greets with is none."""
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=timeout_s)
     except subprocess.TimeoutExpired:
-        return {"failed": f"took more than {timeout_s:g} s"}
+        return [{"failed": f"took more than {timeout_s:g} s"}]
     if done.returncode != 0:
-        return {"failed": (done.stderr.strip().splitlines() or [f"exit status {done.returncode}"])[-1]}
-    record: Record = json.loads(done.stdout.splitlines()[-1])  # Chipmunk greets first
-    return record
+        words = (done.stderr.strip().splitlines() or [""])[-1]
+        return [{"failed": f"{EXIT} {done.returncode} {words}".strip()}]
+    return [json.loads(line) for line in done.stdout.splitlines() if line.startswith("{")]
 
 
-def cases(programs: dict[str, Path]) -> list[Record]:
-    listing = subprocess.run([str(programs["urto"]), "--list"], capture_output=True, text=True, check=True).stdout
-    return [json.loads(line) for line in listing.splitlines()]
+class Bench:
+    """The programs, and what they have already told."""
 
+    def __init__(self, programs: dict[str, Path], notes: Notes) -> None:
+        self.programs = programs
+        self.notes = notes
 
-# ---- notes: a report that was interrupted goes on where it was, as long as the programs are the same ----
+    def run(self, engine: str, arguments: Sequence[str], timeout_s: float) -> list[Record]:
+        key = [*arguments, f"within {timeout_s:g} s"]
+        known = self.notes.get(engine, key)
+        if known is not None:
+            return known
+        lines = _run([str(self.programs[engine]), *arguments], timeout_s)
+        if not any(line.get("failed", "").startswith(EXIT) for line in lines):  # a report that is stopped stops them
+            self.notes.add(engine, key, lines)
+        return lines
 
-NOTES = BUILD / "points.jsonl"
+    def cases(self) -> list[Record]:
+        command = [str(self.programs["urto"]), "--list"]
+        listing = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+        return [json.loads(line) for line in listing.splitlines()]
 
-
-def _key(record: Record) -> tuple[str, str, str]:
-    return record["engine"], record["case"], record["method"]
-
-
-def _noted(effort: Effort) -> dict[tuple[str, str, str], Record]:
-    if not NOTES.exists():
-        return {}
-    lines = [json.loads(line) for line in NOTES.read_text(encoding="utf-8").splitlines()]
-    return {_key(line["record"]): line["record"] for line in lines if line["effort"] == repr(effort)}
-
-
-def _note(record: Record, effort: Effort) -> None:
-    with NOTES.open("a", encoding="utf-8") as file:
-        file.write(json.dumps({"effort": repr(effort), "record": record}) + "\n")
-
-
-def forget_notes_older_than(programs: dict[str, Path]) -> None:
-    if NOTES.exists() and any(program.stat().st_mtime > NOTES.stat().st_mtime for program in programs.values()):
-        NOTES.unlink()
-
-
-def measure_all(programs: dict[str, Path], points: Sequence[Point], effort: Effort) -> list[Record]:
-    records, start, told = [], time.monotonic(), 0.0
-    known = _noted(effort)
-    for number, point in enumerate(points, 1):
+    def point(self, point: Point, effort: Effort) -> Record:
         record: Record = {"engine": point.engine, "case": point.case, "method": point.method, "curve": point.curve}
-        if _key(record) in known:
-            record |= {key: value for key, value in known[_key(record)].items() if key != "curve"}
-        elif point.engine in programs:
-            command = [str(programs[point.engine]), point.case, point.method]
-            command += ["--runs", str(effort.runs), "--budget", str(effort.budget_s)]
-            record |= _run(command, effort.timeout_s)
-        else:
-            record["failed"] = "not built"
-        if _key(record) not in known:
-            _note(record, effort)
-        records.append(record)
-        elapsed = time.monotonic() - start
-        if elapsed - told > 5 or number == len(points):
-            told = elapsed
-            left = elapsed / number * (len(points) - number)
-            say(f"[{number}/{len(points)}, {elapsed:.0f} s, about {left:.0f} s left] {point.case} {point.engine}")
-    return records
+        if point.engine not in self.programs:
+            return record | {"failed": "not built"}
+        runs = effort.runs if point.timed else 1
+        arguments = [point.case, point.method, "--runs", str(runs), "--budget", str(effort.budget_s)]
+        record |= self.run(point.engine, arguments, effort.timeout_s)[-1]
+        if not point.timed:
+            record.pop("cpu_s_per_s", None)  # others ran beside it
+        return record
+
+
+NOTES = BUILD / "notes.jsonl"
+
+# ---- points ----
+
+
+def spread(count: int) -> list[int]:
+    """0 … count − 1 in an order whose every beginning is spread over the whole: by multiples of the golden section.
+
+    So the time that is left can be told from the time that has passed, and what disturbs the machine for a while does
+    not fall on one case alone.
+    """
+    return sorted(range(count), key=lambda i: (i * 0.6180339887498949) % 1)
+
+
+class Progress:
+    def __init__(self, what: str, count: int) -> None:
+        self._what, self._count, self._done = what, count, 0
+        self._start = time.monotonic()
+        self._told = 0.0
+
+    def step(self, name: str) -> None:
+        self._done += 1
+        elapsed = time.monotonic() - self._start
+        if elapsed - self._told > 5 or self._done == self._count:
+            self._told = elapsed
+            left = elapsed / self._done * (self._count - self._done)
+            say(f"{self._what} [{self._done}/{self._count}, {elapsed:.0f} s, about {left:.0f} s left] {name}")
+
+
+def measure_all(bench: Bench, points: Sequence[Point], effort: Effort) -> list[Record]:
+    """What is timed runs alone; of the rest as many at once as there are processors."""
+    records: dict[int, Record] = {}
+    untimed = [i for i in spread(len(points)) if not points[i].timed]
+    untimed.sort(key=lambda i: not points[i].long)  # the longest first, or one processor waits for them in the end
+    progress = Progress("errors", len(untimed))
+    with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+        waiting = {pool.submit(bench.point, points[i], effort): i for i in untimed}
+        try:
+            for future in as_completed(waiting):
+                i = waiting[future]
+                records[i] = future.result()
+                progress.step(f"{points[i].case} {points[i].engine}")
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+    timed = [i for i in spread(len(points)) if points[i].timed]
+    progress = Progress("points", len(timed))
+    for i in timed:
+        records[i] = bench.point(points[i], effort)
+        progress.step(f"{points[i].case} {points[i].engine}")
+    return [records[i] for i in range(len(points))]
 
 
 # ---- rectangles ----
 
 
-def _step_ms(program: Path, count: int, stage: Stage, effort: Effort) -> Record:
-    command = [str(program), "--rectangles", str(count), stage.method, "--steps", str(effort.steps)]
+def _step_ms(bench: Bench, count: int, stage: Stage, effort: Effort) -> Record:
+    command = ["--rectangles", str(count), stage.method, "--steps", str(effort.steps)]
     command += ["--simd", stage.simd] if stage.simd else []
     command += ["--threads", str(stage.threads)] if stage.threads > 1 else []
-    best: Record = {"failed": "never ran"}
-    for _ in range(2):
-        record = _run(command, 120)
-        if "failed" in record:
-            return record
-        if "failed" in best or record["step_ms"] < best["step_ms"]:
-            best = record
-    return best
+    return bench.run("urto", command, 120)[-1]
 
 
-def count_rectangles(program: Path, stage: Stage, effort: Effort) -> Record:
+def count_rectangles(bench: Bench, stage: Stage, effort: Effort) -> Record:
     """Doubles the count until a step no longer fits in a frame, and interpolates on logarithmic scales."""
     curve: list[Record] = []
     count = 25
     while count <= RECTANGLES_MAX:
-        record = _step_ms(program, count, stage, effort)
+        record = _step_ms(bench, count, stage, effort)
         if "failed" in record:
             break
         curve.append(record)
@@ -163,7 +193,5 @@ def _fits(curve: Sequence[Record]) -> int | None:
 # ---- features ----
 
 
-def features(program: Path, quick: bool) -> list[Record]:
-    command = [str(program), "--features", "--runs", "5" if quick else "20", "--steps", "100"]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
-    return [json.loads(line) for line in done.stdout.splitlines()]
+def features(bench: Bench, quick: bool) -> list[Record]:
+    return bench.run("urto", ["--features", "--runs", "5" if quick else "20", "--steps", "100"], 600)

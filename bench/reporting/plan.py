@@ -30,6 +30,12 @@ class Point:
     method: str
     curve: str
     row: int = 0
+    long: bool = False
+
+    @property
+    def timed(self) -> bool:
+        """Whether a diagram shows its time. What only has an error may run beside others."""
+        return bool(self.curve) and not self.long
 
 
 @dataclass(frozen=True)
@@ -87,7 +93,7 @@ def points_of(case: Case, sweeps: Sweeps, curves: bool) -> list[Point]:
     def add(engine: str, method: str, curve: str) -> None:
         known = found.get((engine, method))
         if known is None or not known.curve:
-            found[(engine, method)] = Point(engine, case["case"], method, curve, case["row"])
+            found[(engine, method)] = Point(engine, case["case"], method, curve, case["row"], case["long"])
 
     for profile in dict.fromkeys([*case["levels"], DEFAULT, PRECISE]):
         add("urto", profile, {DEFAULT: "default", PRECISE: "precise: h"}.get(profile, ""))

@@ -115,14 +115,16 @@ void PreciseStep::take(const Event& event) {
     if (world_->bodies[slot].dynamic()) wake_body(*world_, slot);
   for (std::size_t i = awake_before; i < world_->awake.size(); ++i) start_path(world_->awake[i], event.time);
   const std::uint32_t seeds = serial_, strikes = pairs_[event.contact].strikes;
+  const bool was_held = pairs_[event.contact].held > 0;
   settle(world_->bodies[c.body_a].dynamic() ? c.body_a : c.body_b, event.time);
   for (std::size_t i = awake_before; i < world_->awake.size(); ++i) {
     const std::uint32_t slot = world_->awake[i];
     if (world_->bodies[slot].dynamic() && serials_[slot] <= seeds) settle(slot, event.time);
   }
   // Nothing came of it (a search that ran out of rounds, corners that pass each other), or too much: look again later.
+  // What touched until now may strike with its other end next: that is looked for at once.
   Pair& met = pairs_[event.contact];
-  if (met.held == 0 && (met.strikes == strikes || met.strikes > kStrikesMax)) {
+  if (!was_held && met.held == 0 && (met.strikes == strikes || met.strikes > kStrikesMax)) {
     met.silence = met.silence == 0.0 ? kSilence * h_ : kSilenceGrowth * met.silence;
     met.silent_until = event.time + met.silence;
   }
