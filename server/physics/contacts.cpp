@@ -144,25 +144,25 @@ void update_ground_lanes(WorldData<S>& world, std::size_t first, std::vector<std
       contact_passes<S>().take(world.motions.data(), manifolds[i], *blocks[first + i].block, *blocks[first + i].rest);
   });
   finish_seams(world);
-  // After those of all members, so that the order does not depend on how many there are.
+  // After those of all parts, so that the order does not depend on how many there are.
   for (std::size_t i = 0; i < count; ++i)
     list_parted(manifolds[i], *blocks[first + i].block, *blocks[first + i].rest, parted.back());
 }
 
-// Leaves the contacts that part now in the lists by member.
+// Leaves the contacts that part now in the lists by part.
 template <class S>
 void update_lanes(WorldData<S>& world) {
   list_blocks(world.touching);
-  std::vector<std::vector<std::uint32_t>>& parted = lists_by_member(world);
+  std::vector<std::vector<std::uint32_t>>& parted = lists_by_part(world);
   const auto& blocks = world.touching.blocks;
   std::size_t ground = 0;
   for (std::uint32_t color = 0; color < kMovableColors; ++color) ground += world.touching.colors[color].blocks.size();
-  world.team->share(ground, kBlocksPerShare, [&](unsigned member, std::size_t begin, std::size_t end) {
+  world.team->share(ground, kBlocksPerShare, [&](unsigned part, std::size_t begin, std::size_t end) {
     ManifoldLanes<S> manifolds{};
     for (std::size_t i = begin; i < end; ++i) {
       collide_lanes(world, *blocks[i].block, *blocks[i].rest, manifolds);
       contact_passes<S>().take(world.motions.data(), manifolds, *blocks[i].block, *blocks[i].rest);
-      list_parted(manifolds, *blocks[i].block, *blocks[i].rest, parted[member]);
+      list_parted(manifolds, *blocks[i].block, *blocks[i].rest, parted[part]);
     }
   });
   update_ground_lanes(world, ground, parted);
@@ -418,7 +418,7 @@ template <class S>
 void update_contacts(WorldData<S>& world) {
   update_active(world);
   update_lanes(world);
-  for (const auto& parted : world.scratch.by_member)
+  for (const auto& parted : world.scratch.by_part)
     for (std::uint32_t slot : parted) release_parted(world, slot);
 }
 

@@ -54,9 +54,9 @@ class ContinuousCollision {
   // Places get the ways of this step. Where one leads out of the bounds that the broad phase knows they are stretched,
   // so that there is a contact of every pair that may meet.
   void cover_ways() {
-    std::vector<std::vector<Proxy>>& left = lists_by_member(world_);
-    world_.team->share(world_.awake.size(), kBodiesPerShare, [&](unsigned member, std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) note_way(world_.awake[i], left[member]);
+    std::vector<std::vector<Proxy>>& left = lists_by_part(world_);
+    world_.team->share(world_.awake.size(), kBodiesPerShare, [&](unsigned part, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) note_way(world_.awake[i], left[part]);
     });
     for (const std::vector<Proxy>& proxies : left)
       for (Proxy p : proxies) stretch(p);
@@ -103,8 +103,8 @@ class ContinuousCollision {
   }
 
   void list_closing() {
-    std::vector<std::vector<std::uint32_t>>& lists = lists_by_member(world_);
-    world_.team->share(world_.active.size(), kPairsPerShare, [&](unsigned member, std::size_t begin, std::size_t end) {
+    std::vector<std::vector<std::uint32_t>>& lists = lists_by_part(world_);
+    world_.team->share(world_.active.size(), kPairsPerShare, [&](unsigned part, std::size_t begin, std::size_t end) {
       Batch batch;
       for (std::size_t i = begin; i < end; ++i) {
         const ActiveContact& active = world_.active[i];
@@ -112,14 +112,14 @@ class ContinuousCollision {
         batch.a[batch.count] = active.shape_a;
         batch.b[batch.count] = active.shape_b;
         batch.contact[batch.count] = active.contact;
-        if (++batch.count == static_cast<std::uint32_t>(kLanes<S>)) flush(batch, lists[member]);
+        if (++batch.count == static_cast<std::uint32_t>(kLanes<S>)) flush(batch, lists[part]);
       }
-      flush(batch, lists[member]);
+      flush(batch, lists[part]);
     });
     for (const auto& color : world_.touching.colors) {
       for (std::size_t i = 0; i < color.blocks.size(); ++i) {
         const ContactBlockRest<S>& rest = color.rest[i];
-        note_closing(rest.shape_a, rest.shape_b, rest.contact, color.blocks[i].count, lists[0]);
+        note_closing(rest.shape_a, rest.shape_b, rest.contact, color.blocks[i].count, lists.back());
       }
     }
     for (const auto& list : lists) closing_.insert(closing_.end(), list.begin(), list.end());

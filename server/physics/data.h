@@ -55,15 +55,15 @@ struct Scratch {
   std::vector<std::pair<Proxy, Proxy>> pairs;
   std::vector<Proxy> proxies;
   std::vector<std::uint32_t> stack;
-  std::vector<std::uint32_t> parent;                  // union-find, by awake index
-  std::vector<std::uint32_t> member;                  // by body slot, see sleep.cpp
-  std::vector<std::uint8_t> restless;                 // by root
-  std::vector<Vec<S>> pulls;                          // m/s, by awake index
-  std::vector<std::uint32_t> stretched;               // body slots, see continuous.h
-  std::vector<std::uint32_t> parted, met;             // contact slots
-  std::vector<std::uint8_t> findings;                 // by index of active contact
-  std::vector<std::vector<std::uint32_t>> by_member;  // of the team
-  std::vector<ManifoldLanes<S>> manifolds;            // of the contacts with unmovable bodies, by block
+  std::vector<std::uint32_t> parent;                // union-find, by awake index
+  std::vector<std::uint32_t> member;                // by body slot, see sleep.cpp
+  std::vector<std::uint8_t> restless;               // by root
+  std::vector<Vec<S>> pulls;                        // m/s, by awake index
+  std::vector<std::uint32_t> stretched;             // body slots, see continuous.h
+  std::vector<std::uint32_t> parted, met;           // contact slots
+  std::vector<std::uint8_t> findings;               // by index of active contact
+  std::vector<std::vector<std::uint32_t>> by_part;  // of a shared loop
+  std::vector<ManifoldLanes<S>> manifolds;          // of the contacts with unmovable bodies, by block
   std::vector<GroundLane<S>> ground;
   std::vector<std::uint64_t> ground_order;
   std::vector<AdoptedImpulse<S>> adopted;
@@ -137,12 +137,12 @@ struct WorldData {
   }
 };
 
-// A list for each member of the team, empty.
+// An empty list for each part of a loop that the team shares. One after the other they are in the loop's order.
 template <class S>
-std::vector<std::vector<std::uint32_t>>& lists_by_member(WorldData<S>& world) {
-  world.scratch.by_member.resize(world.team->size());
-  for (auto& list : world.scratch.by_member) list.clear();
-  return world.scratch.by_member;
+std::vector<std::vector<std::uint32_t>>& lists_by_part(WorldData<S>& world) {
+  world.scratch.by_part.resize(world.team->parts_max());
+  for (auto& list : world.scratch.by_part) list.clear();
+  return world.scratch.by_part;
 }
 
 inline BodyId id_of(std::uint32_t slot, std::uint32_t generation) {

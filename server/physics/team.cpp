@@ -1,12 +1,18 @@
 #include "physics/team.h"
 
+#include <algorithm>
+
 namespace urto {
 namespace {
 
 // About as long as the gaps between the loops of a step: after that a member sleeps until it is called.
 constexpr int kSpins = 2000;
-// The caller's wait for the others: where there are more threads than processors, spinning would keep them away.
-constexpr int kSpinsBeforeYield = 200;
+// The caller's wait for parts that others are in the middle of: some times as long as a part takes. What lasts longer
+// is a member without a processor, and one that the caller does not occupy may be its next.
+constexpr int kSpinsOfCaller = 1000;
+// Loops that the caller does alone after a wait that long; twice as many each time, less one for each loop without.
+// The most are about a tenth of a second: then a machine with other work loses some per cent to what is tried in vain.
+constexpr std::uint32_t kCautionMin = 32, kCautionMax = 16384;
 
 void pause() {
 #if defined(__x86_64__) || defined(__i386__)
@@ -16,32 +22,75 @@ void pause() {
 #endif
 }
 
+constexpr std::uint64_t kNext = 1, kPartMask = 0xffff;
+constexpr unsigned kEndShift = 16, kRoundShift = 32;
+
 }  // namespace
 
-Team::Team(unsigned members) {
+Team::Team(unsigned members) : ranges_(new Range[members]) {
   for (unsigned member = 1; member < members; ++member) threads_.emplace_back([this, member] { serve(member); });
 }
 
 Team::~Team() {
-  over_ = true;
-  round_.fetch_add(1, std::memory_order_release);
+  over_.store(true);
+  round_.fetch_add(1);
   round_.notify_all();
   for (std::thread& thread : threads_) thread.join();
 }
 
-void Team::run(Job job, const void* argument) {
+bool Team::works_alone() {
+  if (alone_ == 0) return false;
+  --alone_;
+  return true;
+}
+
+void Team::run(Job job, const void* argument, unsigned parts) {
   job_ = job;
   argument_ = argument;
-  working_.store(static_cast<std::uint32_t>(threads_.size()), std::memory_order_relaxed);
-  round_.fetch_add(1, std::memory_order_release);
-  round_.notify_all();
-  job(argument, 0);
-  for (int spins = 0; working_.load(std::memory_order_acquire) != 0; ++spins) {
-    if (spins < kSpinsBeforeYield) {
-      pause();
-    } else {
-      std::this_thread::yield();
+  finished_.store(0, std::memory_order_relaxed);
+  const std::uint32_t round = round_.load(std::memory_order_relaxed) + 1;
+  for (unsigned member = 0; member < size(); ++member) {
+    const std::uint64_t begin = parts * member / size(), end = parts * (member + 1) / size();
+    ranges_[member].state.store(std::uint64_t{round} << kRoundShift | end << kEndShift | begin,
+                                std::memory_order_release);
+  }
+  round_.store(round);
+  if (asleep_.load() != 0 && asleep_.exchange(0) != 0) round_.notify_all();
+  wait_for(parts - work_off(0));
+}
+
+unsigned Team::work_off(unsigned member) {
+  unsigned done = 0;
+  for (unsigned i = 0; i < size(); ++i) {
+    std::atomic<std::uint64_t>& state = ranges_[(member + i) % size()].state;
+    std::uint64_t seen = state.load(std::memory_order_acquire);
+    for (;;) {
+      const auto part = static_cast<unsigned>(seen & kPartMask);
+      if (part >= (seen >> kEndShift & kPartMask)) break;
+      if (!state.compare_exchange_weak(seen, seen + kNext, std::memory_order_acq_rel, std::memory_order_acquire))
+        continue;
+      job_(argument_, part);
+      ++done;
+      seen = state.load(std::memory_order_acquire);
     }
+  }
+  return done;
+}
+
+void Team::wait_for(std::uint32_t others) {
+  for (int spins = 0; spins < kSpinsOfCaller; ++spins) {
+    if (finished_.load(std::memory_order_acquire) == others) {
+      if (caution_ > 0) --caution_;
+      return;
+    }
+    pause();
+  }
+  caution_ = std::clamp(2 * caution_, kCautionMin, kCautionMax);
+  alone_ = caution_;
+  for (;;) {
+    const std::uint32_t finished = finished_.load(std::memory_order_acquire);
+    if (finished == others) return;
+    finished_.wait(finished, std::memory_order_acquire);
   }
 }
 
@@ -49,11 +98,16 @@ void Team::serve(unsigned member) {
   std::uint32_t seen = 0;
   for (;;) {
     for (int spins = 0; spins < kSpins && round_.load(std::memory_order_acquire) == seen; ++spins) pause();
-    round_.wait(seen, std::memory_order_acquire);
-    ++seen;
-    if (over_) return;
-    job_(argument_, member);
-    working_.fetch_sub(1, std::memory_order_release);
+    while (round_.load() == seen) {
+      asleep_.fetch_add(1);
+      round_.wait(seen);
+    }
+    seen = round_.load(std::memory_order_acquire);
+    if (over_.load()) return;
+    if (const unsigned done = work_off(member); done > 0) {
+      finished_.fetch_add(done, std::memory_order_release);
+      finished_.notify_one();
+    }
   }
 }
 

@@ -136,12 +136,12 @@ void WorldOf<S>::solve() {
 template <class S>
 void WorldOf<S>::finish_motions() {
   const S time_step = S(data_.settings.time_step);
-  std::vector<std::vector<Proxy>>& left = lists_by_member(data_);
-  data_.team->share(data_.awake.size(), kBodiesPerShare, [&](unsigned member, std::size_t begin, std::size_t end) {
+  std::vector<std::vector<Proxy>>& left = lists_by_part(data_);
+  data_.team->share(data_.awake.size(), kBodiesPerShare, [&](unsigned part, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t slot = data_.awake[i];
       finish_motion(data_.bodies[slot], data_.motions[slot], time_step);
-      follow_body(data_, slot, left[member]);
+      follow_body(data_, slot, left[part]);
     }
   });
   for (const std::vector<Proxy>& proxies : left)

@@ -22,8 +22,8 @@ TEST(TeamTest, SharesEveryIndexOnce) {
     for (std::size_t count : {0u, 1u, 2u, 5u, 100u, 1001u}) {
       for (int round = 0; round < 50; ++round) {
         std::vector<int> seen(count, 0);
-        team.share(count, 2, [&](unsigned member, std::size_t begin, std::size_t end) {
-          EXPECT_LT(member, members);
+        team.share(count, 2, [&](unsigned part, std::size_t begin, std::size_t end) {
+          EXPECT_LT(part, team.parts_max());
           for (std::size_t i = begin; i < end; ++i) ++seen[i];
         });
         for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(seen[i], 1) << i << " of " << count;
@@ -35,9 +35,9 @@ TEST(TeamTest, SharesEveryIndexOnce) {
 TEST(TeamTest, SmallLoopsStayWithTheCaller) {
   Team team(4);
   const std::thread::id caller = std::this_thread::get_id();
-  team.share(19, 10, [&](unsigned member, std::size_t begin, std::size_t end) {
+  team.share(19, 10, [&](unsigned part, std::size_t begin, std::size_t end) {
     EXPECT_EQ(std::this_thread::get_id(), caller);
-    EXPECT_EQ(member, 0u);
+    EXPECT_EQ(part, 0u);
     EXPECT_EQ(begin, 0u);
     EXPECT_EQ(end, 19u);
   });
@@ -45,14 +45,50 @@ TEST(TeamTest, SmallLoopsStayWithTheCaller) {
 
 TEST(TeamTest, WhatMembersWroteIsSeenAfterwards) {
   Team team(3);
-  std::vector<long> sums(3, 0);
+  std::vector<long> sums(team.parts_max(), 0);
   long total = 0;
   for (int round = 1; round <= 200; ++round) {
-    team.share(300, 1, [&](unsigned member, std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) sums[member] += static_cast<long>(i);
+    team.share(300, 1, [&](unsigned part, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) sums[part] += static_cast<long>(i);
     });
     total = std::accumulate(sums.begin(), sums.end(), 0L);
     ASSERT_EQ(total, round * (299L * 300L / 2));
+  }
+}
+
+// A member in the middle of a part holds up the loop and nothing else: all other parts are done meanwhile.
+TEST(TeamTest, OthersTakeOverWhatAHeldUpMemberHasNotBegun) {
+  Team team(2);
+  const std::thread::id caller = std::this_thread::get_id();
+  for (int round = 0; round < 100; ++round) {
+    std::atomic<unsigned> done{0};
+    std::atomic<bool> held{false};
+    unsigned parts = 0;
+    team.share(100, 1, [&](unsigned part, std::size_t, std::size_t end) {
+      if (end == 100) parts = part + 1;
+      if (std::this_thread::get_id() != caller && !held.exchange(true)) {
+        const unsigned others = team.parts_max() - 1;
+        for (unsigned seen = done.load(); seen < others; seen = done.load()) done.wait(seen);
+      }
+      ++done;
+      done.notify_all();
+    });
+    EXPECT_EQ(done.load(), parts);
+  }
+}
+
+// Parts and what they find are numbered in the order of the loop.
+TEST(TeamTest, PartsAreInTheOrderOfTheLoop) {
+  Team team(4);
+  for (std::size_t count : {16u, 17u, 40u, 1000u}) {
+    std::vector<std::vector<std::size_t>> lists(team.parts_max());
+    team.share(count, 8, [&](unsigned part, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) lists[part].push_back(i);
+    });
+    std::vector<std::size_t> all;
+    for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
+    ASSERT_EQ(all.size(), count);
+    for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(all[i], i);
   }
 }
 
