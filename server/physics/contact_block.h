@@ -47,8 +47,8 @@ struct alignas(64) ContactBlockRest {
   S id[2][kLanes<S>];        // of the points' features, kNoPoint if there is none
   std::uint32_t shape_a[kLanes<S>], shape_b[kLanes<S>];
   std::uint32_t contact[kLanes<S>];
-  std::uint32_t boxes, polygons;  // bit masks: pairs for the kernels of that name
-  std::uint32_t begun;            // bit mask: touch events have begun and not ended
+  std::uint32_t boxes, polygons, rounded;  // bit masks: pairs for the kernels of that name
+  std::uint32_t begun;                     // bit mask: touch events have begun and not ended
 };
 
 inline constexpr double kNoPoint = -1;  // an id that no feature has

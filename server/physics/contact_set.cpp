@@ -67,6 +67,7 @@ void clear_lane(ContactBlock<S>& block, ContactBlockRest<S>& rest, std::uint32_t
   rest.shape_a[lane] = rest.shape_b[lane] = rest.contact[lane] = 0;
   rest.boxes &= ~(1u << lane);
   rest.polygons &= ~(1u << lane);
+  rest.rounded &= ~(1u << lane);
   rest.begun &= ~(1u << lane);
 }
 
@@ -117,6 +118,7 @@ void write_contact(const WorldData<S>& world, std::uint32_t slot, ContactBlock<S
   const PairKind kind = pair_kind(world.places[c.shape_a], world.places[c.shape_b]);
   rest.boxes |= static_cast<std::uint32_t>(kind == PairKind::kBoxes) << lane;
   rest.polygons |= static_cast<std::uint32_t>(kind == PairKind::kPolygons) << lane;
+  rest.rounded |= static_cast<std::uint32_t>(kind == PairKind::kRounded) << lane;
   rest.begun |= static_cast<std::uint32_t>(c.touching()) << lane;
   write_points(c, block, rest, lane);
 }
@@ -198,6 +200,7 @@ void move_lane(const ContactBlock<S>& from, const ContactBlockRest<S>& from_rest
   copy(from_rest.contact, to_rest.contact);
   copy_bit(from_rest.boxes, to_rest.boxes);
   copy_bit(from_rest.polygons, to_rest.polygons);
+  copy_bit(from_rest.rounded, to_rest.rounded);
   copy_bit(from_rest.begun, to_rest.begun);
 }
 
@@ -205,7 +208,8 @@ template <class S>
 void append_block(typename ContactSet<S>::Color& color) {
   ContactBlock<S>& block = color.blocks.emplace_back();
   ContactBlockRest<S>& rest = color.rest.emplace_back();
-  block.movable_a = block.movable_b = block.count = rest.boxes = rest.polygons = rest.begun = 0;
+  block.movable_a = block.movable_b = block.count = 0;
+  rest.boxes = rest.polygons = rest.rounded = rest.begun = 0;
   for (std::uint32_t lane = 0; lane < static_cast<std::uint32_t>(kLanes<S>); ++lane) clear_lane(block, rest, lane);
 }
 

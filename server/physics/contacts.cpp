@@ -7,6 +7,7 @@
 #include "physics/narrow_phase/box_kernels.h"
 #include "physics/narrow_phase/manifold.h"
 #include "physics/narrow_phase/polygon_kernels.h"
+#include "physics/narrow_phase/rounded_kernels.h"
 #include "physics/seams.h"
 #include "physics/solver/contact_kernels.h"
 
@@ -55,6 +56,8 @@ void collide_side_by_side(const WorldData<S>& world, PairKind kind, const std::u
                           ManifoldLanes<S>& out) {
   if (kind == PairKind::kBoxes) {
     box_kernels<S>().collide(world.places.data(), a, b, out);
+  } else if (kind == PairKind::kRounded) {
+    rounded_kernels<S>().collide(world.places.data(), world.convexes.data(), a, b, out);
   } else {
     polygon_kernels<S>().collide(world.places.data(), world.convexes.data(), a, b, out);
   }
@@ -92,14 +95,17 @@ template <class S>
 void collide_lanes(const WorldData<S>& world, const ContactBlock<S>& block, const ContactBlockRest<S>& rest,
                    ManifoldLanes<S>& out) {
   const std::uint32_t used = (1u << block.count) - 1;
-  std::uint32_t general = used & ~(rest.boxes | rest.polygons);
-  if (rest.polygons != 0) {
-    collide_side_by_side(world, PairKind::kPolygons, rest.shape_a, rest.shape_b, out);
-    general |= rest.polygons & asking_lanes(out);
+  // The kernel for rounded shapes also takes sharp polygons.
+  const std::uint32_t outlines = rest.polygons | rest.rounded;
+  std::uint32_t general = used & ~(rest.boxes | outlines);
+  if (outlines != 0) {
+    const PairKind kind = rest.rounded != 0 ? PairKind::kRounded : PairKind::kPolygons;
+    collide_side_by_side(world, kind, rest.shape_a, rest.shape_b, out);
+    general |= outlines & asking_lanes(out);
   }
   if (rest.boxes != 0) {
     ManifoldLanes<S> boxes;
-    const bool alone = rest.polygons == 0;
+    const bool alone = outlines == 0;
     collide_side_by_side(world, PairKind::kBoxes, rest.shape_a, rest.shape_b, alone ? out : boxes);
     if (!alone) copy_lanes(boxes, rest.boxes, out);
   }
@@ -241,6 +247,7 @@ class Lookout {
     for (std::size_t i = begin; i < end; ++i) look_at(static_cast<std::uint32_t>(i));
     flush(boxes_);
     flush(polygons_);
+    flush(rounded_);
   }
 
  private:
@@ -252,7 +259,7 @@ class Lookout {
     }
     const PairKind kind = pair_kind(world_.places[active.shape_a], world_.places[active.shape_b]);
     if (!lanes_ || active.sensor || kind == PairKind::kGeneral) return update_one(index);
-    add(index, kind == PairKind::kBoxes ? boxes_ : polygons_);
+    add(index, kind == PairKind::kBoxes ? boxes_ : kind == PairKind::kPolygons ? polygons_ : rounded_);
   }
 
   // What a kernel may take is looked at side by side.
@@ -299,7 +306,7 @@ class Lookout {
 
   WorldData<S>& world_;
   const bool lanes_;
-  Batch boxes_{PairKind::kBoxes}, polygons_{PairKind::kPolygons};
+  Batch boxes_{PairKind::kBoxes}, polygons_{PairKind::kPolygons}, rounded_{PairKind::kRounded};
   ManifoldLanes<S> manifolds_{};
 };
 

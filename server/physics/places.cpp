@@ -28,9 +28,13 @@ Place<S> place_of(const WorldData<S>& world, const Body<S>& body, const Motion<S
   place.c = body.c;
   place.s = body.s;
   const bool sat = world.settings.narrow_phase == NarrowPhaseKind::kSat;
-  if (shape.shape_kind() == ShapeKind::kPolygon && sat && world.convexes[proxy].radius == S(0))
-    place.vertices = S(world.convexes[proxy].count);
-  if (shape.shape_kind() != ShapeKind::kBox) return place;
+  if (shape.shape_kind() != ShapeKind::kBox) {
+    const Convex<S>& convex = world.convexes[proxy];
+    const bool sharp = shape.shape_kind() == ShapeKind::kPolygon && convex.radius == S(0);
+    place.half_width = convex.radius;
+    if (sat && !convex.chain_segment()) place.vertices = sharp ? S(convex.count) : -S(convex.count);
+    return place;
+  }
   const bool upright = (shape.flags & kShapeUpright) != 0;
   if (!upright) {
     // The box's own axis: the normal of its face to the right.

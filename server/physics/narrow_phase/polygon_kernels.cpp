@@ -12,136 +12,12 @@
 // After foreach_target.h:
 #include <hwy/highway.h>
 
-#include "physics/narrow_phase/place_lanes-inl.h"
+#include "physics/narrow_phase/outline_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace urto {
 namespace HWY_NAMESPACE {
 namespace {
-
-template <class S>
-HWY_INLINE Pair<S> rotated(Pair<S> q, Pair<S> v) {
-  return {hn::Sub(hn::Mul(q.x, v.x), hn::Mul(q.y, v.y)), hn::Add(hn::Mul(q.y, v.x), hn::Mul(q.x, v.y))};
-}
-template <class S>
-HWY_INLINE Pair<S> rotated_back(Pair<S> q, Pair<S> v) {
-  return {hn::Add(hn::Mul(q.x, v.x), hn::Mul(q.y, v.y)), hn::Sub(hn::Mul(q.x, v.y), hn::Mul(q.y, v.x))};
-}
-
-constexpr int kMost = static_cast<int>(kPolygonVerticesMax);
-
-// The outlines of a few lanes' polygons. Lanes with fewer vertices than the most of them end in copies of their last
-// vertex and in faces that no direction prefers.
-template <class S>
-struct Outlines {
-  Pair<S> vertices[kMost + 1];  // ccw; the first again behind the last
-  Pair<S> normals[kMost];
-  Vector<S> count;
-  int most;
-
-  HWY_INLINE Outlines(const Convex<S>* convexes, const std::uint32_t* proxies, Vector<S> counts, int most_vertices)
-      : count(counts), most(most_vertices) {
-    const auto c = load_rows<S>([&](std::size_t i) { return &convexes[proxies[i]].centroid.x(); });
-    const Pair<S> centroid{c.c0, c.c1};
-    int k = 0;
-    do {
-      const auto v = load_rows<S>([&](std::size_t i) { return &convexes[proxies[i]].vertices[k].x(); });
-      const auto n = load_rows<S>([&](std::size_t i) { return &convexes[proxies[i]].normals[k].x(); });
-      vertices[k] = minus<S>({v.c0, v.c1}, centroid);
-      normals[k] = {n.c0, n.c1};
-      vertices[k + 1] = minus<S>({v.c2, v.c3}, centroid);
-      normals[k + 1] = {n.c2, n.c3};
-      k += 2;
-    } while (k < most);
-    for (k = 1; k < most; ++k) {
-      const auto there = has(k);
-      vertices[k] = choose<S>(there, vertices[k], vertices[0]);
-      normals[k] = choose<S>(there, normals[k], normals[0]);
-    }
-    vertices[most] = vertices[0];
-  }
-  HWY_INLINE Mask<S> has(int k) const { return hn::Gt(count, set(S(k))); }
-
-  HWY_INLINE void place(Pair<S> q, Pair<S> center) {
-    int k = 0;
-    do {
-      const Pair<S> v = rotated<S>(q, vertices[k]);
-      vertices[k] = {hn::Add(v.x, center.x), hn::Add(v.y, center.y)};
-      normals[k] = rotated<S>(q, normals[k]);
-    } while (++k < most);
-    vertices[most] = vertices[0];
-  }
-};
-
-// The face of a against which b is separated most. Copies of the first vertex at the end of a short outline change
-// nothing: their faces repeat the first one's.
-template <class S>
-struct BestFace {
-  Pair<S> normal, start, end;
-  Vector<S> separation, index;
-
-  HWY_INLINE BestFace(const Outlines<S>& a, const Outlines<S>& b) {
-    for (int i = 0; i < a.most; ++i) {
-      auto least = dot<S>(a.normals[i], b.vertices[0]);
-      for (int j = 1; j < b.most; ++j) least = smaller(least, dot<S>(a.normals[i], b.vertices[j]));
-      const auto s = hn::Sub(least, dot<S>(a.normals[i], a.vertices[i]));
-      if (i == 0) {
-        normal = a.normals[0];
-        start = a.vertices[0];
-        end = a.vertices[1];
-        separation = s;
-        index = hn::Zero(Tag<S>());
-        continue;
-      }
-      const auto better = hn::And(a.has(i), hn::Gt(s, separation));
-      normal = choose<S>(better, a.normals[i], normal);
-      start = choose<S>(better, a.vertices[i], start);
-      end = choose<S>(better, a.vertices[i + 1], end);
-      separation = hn::IfThenElse(better, s, separation);
-      index = hn::IfThenElse(better, set(S(i)), index);
-    }
-  }
-};
-
-// The edge that looks most against a direction.
-template <class S>
-struct IncidentEdge {
-  Pair<S> p, q;
-  Vector<S> p_index, q_index;
-
-  HWY_INLINE IncidentEdge(const Outlines<S>& a, const Outlines<S>& b, Mask<S> of_a, Pair<S> direction) {
-    const int most = a.most > b.most ? a.most : b.most;
-    const auto count = hn::IfThenElse(of_a, a.count, b.count);
-    const auto pick = [&](int k) HWY_ATTR -> Pair<S> {
-      return choose<S>(of_a, a.vertices[k < a.most ? k : a.most], b.vertices[k < b.most ? k : b.most]);
-    };
-    const auto first = dot<S>(choose<S>(of_a, a.normals[0], b.normals[0]), direction);
-    auto least = first;
-    p = pick(0);
-    q = pick(1);
-    p_index = hn::Zero(Tag<S>());
-    for (int k = 1; k < most; ++k) {
-      const Pair<S> normal = choose<S>(of_a, a.normals[k < a.most ? k : 0], b.normals[k < b.most ? k : 0]);
-      const auto d = dot<S>(normal, direction);
-      const auto less = hn::And(hn::Gt(count, set(S(k))), hn::Lt(d, least));
-      least = hn::IfThenElse(less, d, least);
-      p = choose<S>(less, pick(k), p);
-      q = choose<S>(less, pick(k + 1), q);
-      p_index = hn::IfThenElse(less, set(S(k)), p_index);
-    }
-    const auto next = hn::Add(p_index, set(S(1)));
-    q_index = hn::IfThenElse(hn::Lt(next, count), next, hn::Zero(Tag<S>()));
-  }
-};
-
-template <class S>
-HWY_INLINE int most_of(Vector<S> counts) {
-  HWY_ALIGN S lanes[kLanes<S>];
-  store(counts, lanes);
-  S most = S(3);
-  for (std::size_t i = 0; i < hn::Lanes(Tag<S>()); ++i) most = lanes[i] > most ? lanes[i] : most;
-  return static_cast<int>(most);
-}
 
 template <class S>
 HWY_INLINE void collide_vector(const Place<S>* places, const Convex<S>* convexes, const std::uint32_t* proxies_a,
@@ -152,8 +28,8 @@ HWY_INLINE void collide_vector(const Place<S>* places, const Convex<S>* convexes
   const auto reach = reach_of(a, b);
   const Pair<S> between = minus<S>(b.center, a.center);
   // Everything in a's axes, from a's centroid.
-  const Outlines<S> outline_a(convexes, proxies_a + lane, a.vertices, most_of<S>(a.vertices));
-  Outlines<S> outline_b(convexes, proxies_b + lane, b.vertices, most_of<S>(b.vertices));
+  const Outlines<S> outline_a(convexes, proxies_a + lane, a.vertices, most_of<S>(a.vertices, 3));
+  Outlines<S> outline_b(convexes, proxies_b + lane, b.vertices, most_of<S>(b.vertices, 3));
   outline_b.place(rotated_back<S>(a.axis, b.axis), rotated_back<S>(a.axis, between));
   const BestFace<S> fa(outline_a, outline_b), fb(outline_b, outline_a);
   const auto near = hn::And(hn::Le(fa.separation, reach), hn::Le(fb.separation, reach));
