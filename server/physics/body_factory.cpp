@@ -289,6 +289,7 @@ void update_model(WorldData<S>& world) {
   world.model = choose_model(world.settings, world.needs);
   if (world.broad_phase && before == world.model.broad_phase) return;
   world.broad_phase = BroadPhase<S>::create(world.model.broad_phase);
+  world.broad_phase->use(world.team.get());
   for (Proxy p = 0; p < world.shapes.size(); ++p) {
     const Shape<S>& shape = world.shapes[p];
     if (shape.alive()) insert_proxy(world, p);

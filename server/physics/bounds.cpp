@@ -1,5 +1,6 @@
 #include "physics/bounds.h"
 
+#include "physics/constants.h"
 #include "physics/contact_graph.h"
 #include "physics/joint_graph.h"
 
@@ -132,16 +133,32 @@ void reset_bounds(WorldData<S>& world, std::uint32_t slot) {
     refresh_bounds(world, proxy);
 }
 
+// Leaves the pairs that shall have a contact and have none.
+template <class S>
+void drop_known_pairs(WorldData<S>& world) {
+  auto& pairs = world.scratch.pairs;
+  std::vector<std::uint8_t>& wanted = world.scratch.findings;
+  wanted.resize(pairs.size());
+  world.team->share(pairs.size(), kPairsPerShare, [&](unsigned, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto [low, high] = pairs[i];
+      wanted[i] = may_touch(world, world.shapes[low], world.shapes[high]) && !world.pair_set.contains(low, high);
+    }
+  });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (wanted[i] != 0) pairs[kept++] = pairs[i];
+  pairs.resize(kept);
+}
+
 template <class S>
 void update_broad_phase(WorldData<S>& world) {
   if (world.moved.empty()) return;
   world.broad_phase->find_new_pairs(world.moved, world.scratch.pairs);
   for (Proxy proxy : world.moved) world.shapes[proxy].flags &= ~kShapeMoved;
   world.moved.clear();
-  for (const auto& [low, high] : world.scratch.pairs) {
-    if (!may_touch(world, world.shapes[low], world.shapes[high])) continue;
-    if (!world.pair_set.contains(low, high)) create_contact(world, low, high);
-  }
+  drop_known_pairs(world);
+  for (const auto& [low, high] : world.scratch.pairs) create_contact(world, low, high);
 }
 
 #define URTO_INSTANTIATE(S)                                                     \

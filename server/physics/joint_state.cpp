@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "physics/constants.h"
 #include "physics/joint_graph.h"
 
 namespace urto {
@@ -36,6 +37,26 @@ void set_translation(JointState& state, const MovingPoint& a, const MovingPoint&
 void set_distance(JointState& state, const Vec2& way, const Vec2& velocity) {
   state.position = length<double>(way);
   state.speed = state.position > 0 ? dot<double>(velocity, way) / state.position : 0;
+}
+
+template <class S>
+bool breaks(const Joint<S>& j) {
+  if (!j.has(kJointBreaks)) return false;
+  return std::sqrt(j.force_x * j.force_x + j.force_y * j.force_y) > j.break_force ||
+         absolute(j.torque) > j.break_torque;
+}
+
+template <class S>
+JointEvent break_event(const WorldData<S>& world, std::uint32_t slot) {
+  const Joint<S>& j = world.joints[slot];
+  JointEvent event;
+  event.joint = id_of(slot, j.generation);
+  event.body_a = j.body_a == kNone ? 0 : id_of(world, j.body_a);
+  event.body_b = id_of(world, j.body_b);
+  event.point = moving_point(world, j.body_b, j.bx, j.by).at;
+  event.force = double(std::sqrt(j.force_x * j.force_x + j.force_y * j.force_y));
+  event.torque = double(absolute(j.torque));
+  return event;
 }
 
 }  // namespace
@@ -73,22 +94,17 @@ JointState joint_state_of(const WorldData<S>& world, std::uint32_t slot) {
 
 template <class S>
 void break_joints(WorldData<S>& world) {
+  std::vector<std::vector<std::uint32_t>>& broken = lists_by_part(world);
+  world.team->share(world.active_joints.size(), kPairsPerShare, [&](unsigned part, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (breaks(world.joints[world.active_joints[i]])) broken[part].push_back(world.active_joints[i]);
+  });
   // Backwards: destroying swaps the last active joint into the hole, and that one has been seen.
-  for (std::size_t i = world.active_joints.size(); i-- > 0;) {
-    const std::uint32_t slot = world.active_joints[i];
-    const Joint<S>& j = world.joints[slot];
-    if (!j.has(kJointBreaks)) continue;
-    const S force = std::sqrt(j.force_x * j.force_x + j.force_y * j.force_y), torque = absolute(j.torque);
-    if (!(force > j.break_force || torque > j.break_torque)) continue;
-    JointEvent event;
-    event.joint = id_of(slot, j.generation);
-    event.body_a = j.body_a == kNone ? 0 : id_of(world, j.body_a);
-    event.body_b = id_of(world, j.body_b);
-    event.point = moving_point(world, j.body_b, j.bx, j.by).at;
-    event.force = double(force);
-    event.torque = double(torque);
-    world.joint_events.push_back(event);
-    destroy_joint(world, slot);
+  for (auto list = broken.rbegin(); list != broken.rend(); ++list) {
+    for (auto slot = list->rbegin(); slot != list->rend(); ++slot) {
+      world.joint_events.push_back(break_event(world, *slot));
+      destroy_joint(world, *slot);
+    }
   }
 }
 

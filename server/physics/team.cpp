@@ -49,8 +49,8 @@ void Team::run(Job job, const void* argument, unsigned parts) {
   argument_ = argument;
   finished_.store(0, std::memory_order_relaxed);
   const std::uint32_t round = round_.load(std::memory_order_relaxed) + 1;
-  for (unsigned member = 0; member < size(); ++member) {
-    const std::uint64_t begin = parts * member / size(), end = parts * (member + 1) / size();
+  for (unsigned member = 0; member < members(); ++member) {
+    const std::uint64_t begin = parts * member / members(), end = parts * (member + 1) / members();
     ranges_[member].state.store(std::uint64_t{round} << kRoundShift | end << kEndShift | begin,
                                 std::memory_order_release);
   }
@@ -61,8 +61,8 @@ void Team::run(Job job, const void* argument, unsigned parts) {
 
 unsigned Team::work_off(unsigned member) {
   unsigned done = 0;
-  for (unsigned i = 0; i < size(); ++i) {
-    std::atomic<std::uint64_t>& state = ranges_[(member + i) % size()].state;
+  for (unsigned i = 0; i < members(); ++i) {
+    std::atomic<std::uint64_t>& state = ranges_[(member + i) % members()].state;
     std::uint64_t seen = state.load(std::memory_order_acquire);
     for (;;) {
       const auto part = static_cast<unsigned>(seen & kPartMask);

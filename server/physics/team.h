@@ -27,15 +27,15 @@ class Team {
   Team(const Team&) = delete;
   Team& operator=(const Team&) = delete;
 
-  unsigned size() const { return static_cast<unsigned>(threads_.size()) + 1; }
+  unsigned members() const { return static_cast<unsigned>(threads_.size()) + 1; }
   // No loop has more parts.
-  unsigned parts_max() const { return size() == 1 ? 1 : size() * kPartsPerMember; }
+  unsigned parts_max() const { return members() == 1 ? 1 : members() * kPartsPerMember; }
 
   // Calls work(part, begin, end) for each part of [0, count), numbered in their order, and returns when all are done. A
   // loop of less than two grains is not worth sharing.
   template <class Work>
   void share(std::size_t count, std::size_t grain, const Work& work) {
-    if (size() == 1 || count < 2 * grain || works_alone()) {
+    if (members() == 1 || count < 2 * grain || works_alone()) {
       work(0u, std::size_t{0}, count);
       return;
     }

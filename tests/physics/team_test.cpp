@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "physics/support/scenes.h"
+#include "physics/support/joints.h"
 
 namespace urto {
 namespace {
@@ -18,7 +18,7 @@ using namespace testing;
 TEST(TeamTest, SharesEveryIndexOnce) {
   for (unsigned members : {1u, 2u, 3u, 7u}) {
     Team team(members);
-    EXPECT_EQ(team.size(), members);
+    EXPECT_EQ(team.members(), members);
     for (std::size_t count : {0u, 1u, 2u, 5u, 100u, 1001u}) {
       for (int round = 0; round < 50; ++round) {
         std::vector<int> seen(count, 0);
@@ -111,6 +111,61 @@ TEST(TeamTest, AnyNumberOfThreadsGivesTheSameBits) {
   for (Precision precision : {Precision::kFloat, Precision::kDouble}) {
     const std::uint64_t alone = hash_of_run(precision, 1);
     for (unsigned threads : {2u, 3u, 4u}) EXPECT_EQ(hash_of_run(precision, threads), alone) << threads << " threads";
+  }
+}
+
+// A net of discs that hangs from a rail, tears, and is shot at by balls too fast for a step.
+struct NetRun {
+  std::uint64_t hash = 0;
+  std::vector<JointId> torn;  // in the order of the events
+  std::vector<std::pair<BodyId, BodyId>> met;
+};
+NetRun run_of_net(Precision precision, unsigned threads) {
+  constexpr int kSide = 24;
+  auto world = World::create(settings_for(precision), nullptr, threads).value();
+  const BodyId rail = add(*world, box_body(0, 1, 100, 0.2, BodyType::kStatic));
+  std::vector<BodyId> knots;
+  const auto tie = [&](BodyId a, BodyId b, const Vec2& at_a, const Vec2& at_b) {
+    JointDef def = joint_between(a, b, at_a, at_b, RevoluteJoint{});
+    if (knots.size() % 5 == 0) def.break_force = 60;
+    join(*world, def);
+  };
+  for (int row = 0; row < kSide; ++row) {
+    for (int column = 0; column < kSide; ++column) {
+      const double x = column - kSide / 2.0;
+      knots.push_back(add(*world, ball_body(x, -row, 0.3)));
+      const std::size_t last = knots.size() - 1;
+      if (column > 0) tie(knots[last - 1], knots[last], {0.5, 0}, {-0.5, 0});
+      if (row > 0) tie(knots[last - kSide], knots[last], {0, -0.5}, {0, 0.5});
+      if (row == 0 && column % 3 == 0) tie(rail, knots[last], {x, -0.5}, {0, 0.5});
+    }
+  }
+  for (int i = 0; i < 40; ++i) {
+    BodyDef ball = ball_body(-40 - i, -0.5 * i, 0.1);
+    ball.velocity = {90, 5};
+    add(*world, ball);
+  }
+  NetRun run;
+  for (int step = 0; step < 90; ++step) {
+    world->step();
+    for (const JointEvent& event : world->joint_events()) run.torn.push_back(event.joint);
+    for (const ContactEvent& event : world->contact_events()) run.met.emplace_back(event.body_a, event.body_b);
+  }
+  run.hash = world->state_hash();
+  return run;
+}
+
+TEST(TeamTest, AnyNumberOfThreadsGivesTheSameBitsOfJointsAndFastBodies) {
+  for (Precision precision : {Precision::kFloat, Precision::kDouble}) {
+    const NetRun alone = run_of_net(precision, 1);
+    EXPECT_GT(alone.torn.size(), 10u);
+    EXPECT_GT(alone.met.size(), 100u);
+    for (unsigned threads : {2u, 4u}) {
+      const NetRun run = run_of_net(precision, threads);
+      EXPECT_EQ(run.hash, alone.hash) << threads << " threads";
+      EXPECT_EQ(run.torn, alone.torn) << threads << " threads";
+      EXPECT_EQ(run.met, alone.met) << threads << " threads";
+    }
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "physics/definitions.h"
 #include "physics/geometry/aabb.h"
+#include "physics/team.h"
 
 namespace urto {
 
@@ -28,6 +29,9 @@ class BroadPhase {
   // A hint: of a body that sleeps, whose proxies will hardly be moved. It changes no answer; unknown proxies and still
   // ones are ignored.
   virtual void set_resting(Proxy proxy, bool resting);
+
+  // Pairs are sought with these threads from now on, as long as the team lives.
+  void use(Team* team) { team_ = team; }
 
   // All pairs (low, high) with overlapping bounds of which at least one is in `moved` (distinct proxies, any order)
   // and not both are still. Sorted, each once. `pairs` is cleared first.
@@ -53,12 +57,14 @@ class BroadPhase {
   const Aabb<S>& bounds_of(Proxy proxy) const { return noted_[proxy].now; }
   bool knows(Proxy a, Proxy b) const { return noted_[a].before.overlaps(noted_[b].before); }
   void settle(std::span<const Proxy> moved);
+  Team* team() const { return team_; }  // may be none
 
  private:
   struct Noted {
     Aabb<S> before, now;  // when new pairs were last sought; at this time
   };
   std::vector<Noted> noted_;  // by proxy
+  Team* team_ = nullptr;
 };
 
 }  // namespace urto

@@ -7,18 +7,52 @@
 namespace urto {
 namespace {
 
-// Finds the overlapping pairs, of which one is marked, within a tree or between two.
+// A search in a smaller tree takes some microseconds, and is not worth a second thread.
+constexpr std::uint32_t kProxiesToShare = 256;
+// Tasks of a shared search: so many nodes for each part, so that parts are about equal.
+constexpr std::uint32_t kNodesPerPart = 4;
+constexpr std::size_t kTasksPerShare = 4;
+
+// A part of a tree, or of two that are to be joined: under node x of tree a alone, or under x and under node y of b.
+template <class S>
+struct Branch {
+  std::uint32_t level, index;
+  Aabb<S> bounds;
+};
+template <class S>
+struct JoinTask {
+  Branch<S> x, y;
+  bool within;  // y says nothing
+};
+
+// Finds the overlapping pairs, of which one is marked, within a tree or between two. What lies at or below the level of
+// tasks can be left to be done later, by several side by side.
 template <class S, class Wanted>
 class TreeJoin {
  public:
   using Tree = PackedTree<S>;
   using Node = Box4<S>;
+  using Task = JoinTask<S>;
 
   TreeJoin(const Tree& a, const Tree& b, const Wanted& wanted, PairSorter& pairs)
       : a_(a), b_(b), wanted_(wanted), pairs_(pairs) {}
 
+  // From now on, what lies at or below this level goes into the list.
+  void list_tasks(std::uint32_t level, std::vector<Task>& tasks) {
+    task_level_ = level;
+    tasks_ = &tasks;
+  }
+  void run(const Task& task) { task.within ? within(task.x.level, task.x.index) : between(task.x, task.y); }
+
+  // All pairs of the join.
+  void all() { &a_ == &b_ ? within(a_.top_level(), 0) : all_between(); }
+
+ private:
+  using Branch = urto::Branch<S>;
+
   // Pairs under one node of tree a.
   void within(std::uint32_t level, std::uint32_t index) {
+    if (tasks_ && level <= task_level_) return tasks_->push_back({{level, index, {}}, {}, true});
     const Node& boxes = a_.node(level, index);
     const std::uint32_t marks = a_.marks(level, index);
     for (int i = 0; i < 4; ++i) {
@@ -42,12 +76,6 @@ class TreeJoin {
     between({a, 0, a_.node(a, 0).bounds()}, {b, 0, b_.node(b, 0).bounds()});
   }
 
- private:
-  struct Branch {
-    std::uint32_t level, index;
-    Aabb<S> bounds;
-  };
-
   void add(Proxy x, Proxy y) {
     if (wanted_(x, y)) pairs_.add(x, y);
   }
@@ -58,6 +86,7 @@ class TreeJoin {
   void between(const Branch& x, const Branch& y) {
     if (x.level > y.level) return descend(a_, x, b_, y, [&](const Branch& part) { between(part, y); });
     if (y.level > x.level) return descend(b_, y, a_, x, [&](const Branch& part) { between(x, part); });
+    if (tasks_ && x.level <= task_level_) return tasks_->push_back({x, y, false});
     const Node& boxes_x = a_.node(x.level, x.index);
     const Node& boxes_y = b_.node(y.level, y.index);
     const std::uint32_t marks_x = a_.marks(x.level, x.index), marks_y = b_.marks(y.level, y.index);
@@ -93,7 +122,17 @@ class TreeJoin {
   const Tree& b_;
   const Wanted& wanted_;
   PairSorter& pairs_;
+  std::uint32_t task_level_ = 0;
+  std::vector<Task>* tasks_ = nullptr;
 };
+
+// The highest level with nodes enough for all parts of a shared search to be about equal.
+template <class S>
+std::uint32_t task_level(const PackedTree<S>& tree, std::uint32_t nodes_min) {
+  std::uint32_t level = tree.top_level();
+  while (level > 0 && tree.nodes(level) < nodes_min) --level;
+  return level;
+}
 
 }  // namespace
 
@@ -166,14 +205,33 @@ void Bvh<S>::join(std::span<const Proxy> moved, const Wanted& wanted) const {
       moved, [](Tree& tree) { tree.mark_all(); }, [](Tree& tree, Proxy proxy) { tree.mark(proxy); });
   for (const Group a : {kMoving, kResting}) {
     if (trees_[a].empty()) continue;
-    if (marked[a] != 0) TreeJoin<S, Wanted>(trees_[a], trees_[a], wanted, sorter_).within(trees_[a].top_level(), 0);
+    if (marked[a] != 0) join(trees_[a], trees_[a], wanted);
     for (const Group b : {kResting, kStill}) {
       if (b <= a || trees_[b].empty() || marked[a] + marked[b] == 0) continue;
-      TreeJoin<S, Wanted>(trees_[a], trees_[b], wanted, sorter_).all_between();
+      join(trees_[a], trees_[b], wanted);
     }
   }
   for_moved(
       moved, [](Tree& tree) { tree.unmark_all(); }, [](Tree& tree, Proxy proxy) { tree.unmark(proxy); });
+}
+
+template <class S>
+template <class Wanted>
+void Bvh<S>::join(const PackedTree<S>& a, const PackedTree<S>& b, const Wanted& wanted) const {
+  using Join = TreeJoin<S, Wanted>;
+  Join whole(a, b, wanted, sorter_);
+  const unsigned parts = this->team() ? this->team()->parts_max() : 1;
+  if (parts == 1 || a.size() < kProxiesToShare) return whole.all();
+  std::vector<JoinTask<S>> tasks;
+  whole.list_tasks(task_level(a, kNodesPerPart * parts), tasks);
+  whole.all();
+  if (sorters_.size() < parts) sorters_.resize(parts);
+  for (PairSorter& sorter : sorters_) sorter.clear();
+  this->team()->share(tasks.size(), kTasksPerShare, [&](unsigned part, std::size_t begin, std::size_t end) {
+    Join join(a, b, wanted, sorters_[part]);
+    for (std::size_t i = begin; i < end; ++i) join.run(tasks[i]);
+  });
+  for (const PairSorter& sorter : sorters_) sorter_.add_all(sorter);
 }
 
 template <class S>

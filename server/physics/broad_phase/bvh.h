@@ -38,6 +38,8 @@ class Bvh final : public BroadPhase<S> {
   // Hands overlapping pairs to the sorter, of which one has moved and which `wanted` lets pass.
   template <class Wanted>
   void join(std::span<const Proxy> moved, const Wanted& wanted) const;
+  template <class Wanted>
+  void join(const PackedTree<S>& a, const PackedTree<S>& b, const Wanted& wanted) const;
 
   // Calls whole(tree) for each tree all of whose proxies have moved, and one(tree, proxy) for each that has in the
   // others. How many have in each tree.
@@ -48,6 +50,7 @@ class Bvh final : public BroadPhase<S> {
   // Caches of the bounds; see above.
   mutable std::array<PackedTree<S>, 3> trees_;  // by group
   mutable PairSorter sorter_;
+  mutable std::vector<PairSorter> sorters_;  // by part of a search that is shared out
 };
 
 }  // namespace urto

@@ -33,6 +33,7 @@ class PackedTree {
   bool empty() const { return count_ == 0; }
   std::uint32_t size() const { return count_; }
   std::uint32_t top_level() const { return static_cast<std::uint32_t>(levels_.size()) - 1; }
+  std::uint32_t nodes(std::uint32_t level) const { return static_cast<std::uint32_t>(levels_[level].nodes.size()); }
   const Node& node(std::uint32_t level, std::uint32_t index) const { return levels_[level].nodes[index]; }
   Proxy proxy(std::uint32_t group, int lane) const { return proxies_[group * 4 + static_cast<std::uint32_t>(lane)]; }
 

@@ -13,6 +13,7 @@ class PairSorter {
  public:
   void clear() { keys_.clear(); }
   void add(Proxy a, Proxy b) { keys_.push_back(a < b ? (std::uint64_t{a} << 32 | b) : (std::uint64_t{b} << 32 | a)); }
+  void add_all(const PairSorter& other) { keys_.insert(keys_.end(), other.keys_.begin(), other.keys_.end()); }
   // `proxies_end`: above every proxy that was added.
   void sort_into(std::uint32_t proxies_end, std::vector<std::pair<Proxy, Proxy>>& pairs);
 

@@ -18,7 +18,7 @@ class JointPasses {
         points_(point_passes<S>()) {
     if (!world_.model.joints) return;
     gather_joints(world_, set_, h);
-    run(points_.prepare);
+    share(points_.prepare, 0, set_.points.size(), kBlocksPerShare);
   }
   void warm_start() {
     if (!world_.model.joints) return;
@@ -40,8 +40,21 @@ class JointPasses {
   }
 
  private:
-  void run(typename PointPasses<S>::Pass pass) {
-    pass(world_.motions.data(), set_.points.data(), set_.points.size(), settings_);
+  using Pass = typename PointPasses<S>::Pass;
+
+  // Colour after colour.
+  void run(Pass pass) {
+    std::size_t begin = 0;
+    for (const std::uint32_t& end : set_.ends) {
+      const bool one_by_one = &end == &set_.ends[kPointColors - 1];
+      if (end > begin) share(pass, begin, end, one_by_one ? end - begin : kBlocksPerShare);
+      begin = end;
+    }
+  }
+  void share(Pass pass, std::size_t first, std::size_t last, std::size_t grain) {
+    world_.team->share(last - first, grain, [&](unsigned, std::size_t begin, std::size_t end) {
+      pass(world_.motions.data(), &set_.points[first] + begin, end - begin, settings_);
+    });
   }
   WorldData<S>& world_;
   JointSet<S>& set_;

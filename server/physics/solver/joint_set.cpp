@@ -7,7 +7,7 @@
 namespace urto {
 namespace {
 
-constexpr std::uint32_t kColors = 64;  // the last one takes what fits nowhere else, one by one
+constexpr std::uint32_t kColors = kPointColors;
 
 template <class S>
 bool movable(const Body<S>& body) {
@@ -73,17 +73,22 @@ template <class S>
 void gather_points(WorldData<S>& world, JointSet<S>& set) {
   std::uint32_t begin[kColors + 1];
   sort_by_color(world, set, begin);
-  std::size_t used = 0;
+  auto& ranges = set.ranges;
+  ranges.clear();
   for (std::uint32_t color = 0; color < kColors; ++color) {
-    const std::uint32_t lanes = color + 1 == kColors ? 1u : static_cast<std::uint32_t>(kLanes<S>);
-    for (std::uint32_t i = begin[color]; i < begin[color + 1];) {
-      if (used == set.points.size()) set.points.emplace_back();
-      PointBlock<S>& block = set.points[used++];
-      start_block(block);
-      for (; i < begin[color + 1] && block.count < lanes; ++i) put_point(world, block, set.sorted[i]);
-    }
+    const std::uint32_t lanes = color + 1 == kColors ? 1u : static_cast<std::uint32_t>(kLanes<S>),
+                        end = begin[color + 1];
+    for (std::uint32_t i = begin[color]; i < end; i += lanes) ranges.push_back({i, end - i < lanes ? end : i + lanes});
+    set.ends[color] = static_cast<std::uint32_t>(ranges.size());
   }
-  set.points.resize(used);
+  set.points.resize(ranges.size());
+  world.team->share(ranges.size(), kBlocksPerShare, [&](unsigned, std::size_t first, std::size_t last) {
+    for (std::size_t block = first; block < last; ++block) {
+      start_block(set.points[block]);
+      for (std::uint32_t i = ranges[block].begin; i < ranges[block].end; ++i)
+        put_point(world, set.points[block], set.sorted[i]);
+    }
+  });
 }
 
 template <class S>
@@ -185,15 +190,18 @@ void gather_joints(WorldData<S>& world, JointSet<S>& set, S h) {
 template <class S>
 void store_joints(WorldData<S>& world, const JointSet<S>& set) {
   const S rate = S(1) / S(world.settings.time_step);
-  for (const PointBlock<S>& block : set.points) {
-    for (std::uint32_t lane = 0; lane < block.count; ++lane) {
-      Joint<S>& j = world.joints[block.joint[lane]];
-      j.impulse_x = block.impulse_x[lane];
-      j.impulse_y = block.impulse_y[lane];
-      j.force_x = block.total_x[lane] * rate;
-      j.force_y = block.total_y[lane] * rate;
+  world.team->share(set.points.size(), kBlocksPerShare, [&](unsigned, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const PointBlock<S>& block = set.points[i];
+      for (std::uint32_t lane = 0; lane < block.count; ++lane) {
+        Joint<S>& j = world.joints[block.joint[lane]];
+        j.impulse_x = block.impulse_x[lane];
+        j.impulse_y = block.impulse_y[lane];
+        j.force_x = block.total_x[lane] * rate;
+        j.force_y = block.total_y[lane] * rate;
+      }
     }
-  }
+  });
   for (const JointRows<S>& rows : set.rows) {
     Joint<S>& j = world.joints[rows.joint];
     j.torque = rows.total_turn * rate;

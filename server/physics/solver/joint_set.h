@@ -62,14 +62,22 @@ struct JointRows {
   S total_x, total_y, total_turn;  // on b, of the step so far
 };
 
+// The last colour takes what fits nowhere else, one lane a block: its blocks are solved one after the other.
+inline constexpr std::uint32_t kPointColors = 64;
+
 template <class S>
 struct JointSet {
-  std::vector<PointBlock<S>> points;
+  std::vector<PointBlock<S>> points;      // by colour: no two blocks of one share a body that can move
+  std::uint32_t ends[kPointColors] = {};  // where each colour's blocks end
   std::vector<JointRows<S>> rows;
   std::vector<std::uint64_t> taken;     // scratch: colours by body slot
   std::vector<std::uint8_t> colors;     // scratch: by revolute joint
   std::vector<std::uint32_t> revolute;  // scratch: joint slots
   std::vector<std::uint32_t> sorted;    // scratch: joint slots by colour
+  struct Range {
+    std::uint32_t begin, end;
+  };
+  std::vector<Range> ranges;  // scratch: of the sorted joints, by block
 };
 
 template <class S>
