@@ -95,7 +95,8 @@ def points_of(case: Case, sweeps: Sweeps, curves: bool) -> list[Point]:
         if known is None or not known.curve:
             found[(engine, method)] = Point(engine, case["case"], method, curve, case["row"], case["long"])
 
-    for profile in dict.fromkeys([*case["levels"], DEFAULT, PRECISE]):
+    # A long case has no time for what it has no level for, but for the default, which the peers are compared with.
+    for profile in dict.fromkeys([*case["levels"], DEFAULT, *([] if case["long"] else [PRECISE])]):
         add("urto", profile, {DEFAULT: "default", PRECISE: "precise: h"}.get(profile, ""))
     if not case["case"].endswith(WITHOUT_CURVES):
         for peer, label in PEERS.items():

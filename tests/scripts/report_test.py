@@ -85,9 +85,9 @@ def test_what_runs_beside_others_has_no_time(tmp_path):
     assert missing["failed"] == "not built"
 
 
-def test_long_cases_have_no_curves_and_no_times():
+def test_long_cases_have_their_levels_alone_and_no_times():
     points = plan.points_of(CASE | {"long": True}, plan.FULL, True)
-    assert {point.method for point in points} == {"default", "verlet", "precise"}
+    assert {point.method for point in points} == {"default", "verlet"}
     assert not any(point.timed for point in points)
 
 

@@ -50,9 +50,12 @@ void PreciseStep::look_around(std::uint32_t slot, double now) {
     Pair& pair = pairs_[contact];
     if (c.sensor() || pair.cluster == serial_) return;
     pair.cluster = serial_;
+    const std::uint32_t other = c.body_a == slot ? c.body_b : c.body_a;
+    // Who is still pushed by this body must not go on alone.
+    const bool pushed = pair.normal_force[0] > 0.0 || pair.normal_force[1] > 0.0;
+    if (pushed && world_->bodies[other].dynamic()) join(other, now);
     account(contact, now);
     pair.held = 0;
-    const std::uint32_t other = c.body_a == slot ? c.body_b : c.body_a;
     const Path other_path = paths_[other].from(now);
     const Path &path_a = c.body_a == slot ? paths_[slot] : other_path,
                &path_b = c.body_a == slot ? other_path : paths_[slot];
@@ -65,16 +68,44 @@ void PreciseStep::look_around(std::uint32_t slot, double now) {
   });
 }
 
-// Forces act from `since` to now.
+// Forces act from `since` to now. Both bodies' paths tell of now if they push each other.
 void PreciseStep::account(std::uint32_t contact, double now) {
   Pair& pair = pairs_[contact];
+  balance(contact, now);
   Contact<double>& c = world_->contacts[contact];
   for (int i = 0; i < 2; ++i) {
     c.points[i].total_normal_impulse += pair.normal_force[i] * (now - pair.since);
     c.points[i].total_tangent_impulse += pair.tangent_force[i] * (now - pair.since);
     pair.normal_force[i] = pair.tangent_force[i] = 0;
   }
+  pair.force_x = pair.force_y = pair.torque = 0;
   pair.since = now;
+}
+
+// A force and its reaction act along one line at one moment of the interval alone: as the bodies drift past each other
+// the two lines part, and the pair of forces turns what should not be turned. What it has made of angular momentum is
+// given back, to both alike. With x_b − x_a the centres' distance the gain is ∫ (x_b − x_a) × F + torque.
+void PreciseStep::balance(std::uint32_t contact, double now) {
+  const Pair& pair = pairs_[contact];
+  const Contact<double>& c = world_->contacts[contact];
+  const double s = now - pair.since;
+  if (!(s > 0.0) || (pair.force_x == 0.0 && pair.force_y == 0.0)) return;
+  const Body<double>&a = world_->bodies[c.body_a], &b = world_->bodies[c.body_b];
+  const auto integral = [s](double x, double v, double gain, double acceleration) {
+    return s * (x - s * (0.5 * (v - s * gain) + s * acceleration / 3.0));
+  };
+  const Path &pa = paths_[c.body_a], &pb = paths_[c.body_b];
+  const Vec2 apart(integral((b.x - a.x) + (pb.dx - pa.dx), pb.vx - pa.vx, pb.gain_x - pa.gain_x, pb.ax - pa.ax),
+                   integral((b.y - a.y) + (pb.dy - pa.dy), pb.vy - pa.vy, pb.gain_y - pa.gain_y, pb.ay - pa.ay));
+  turn_both(c, -(cross<double>(apart, Vec2(pair.force_x, pair.force_y)) + s * pair.torque));
+}
+
+void PreciseStep::turn_both(const Contact<double>& c, double angular_impulse) {
+  const Body<double>&a = world_->bodies[c.body_a], &b = world_->bodies[c.body_b];
+  if (!(a.inv_inertia > 0.0) || !(b.inv_inertia > 0.0)) return;  // something else holds one of them
+  const double gain = angular_impulse / (a.inertia + b.inertia);
+  paths_[c.body_a].w += gain;
+  paths_[c.body_b].w += gain;
 }
 
 // The world's contact becomes what was found, with the impulses that its points had.

@@ -7,7 +7,7 @@
 namespace urto {
 namespace {
 
-void set_row(double* row, const Vec2& u, const TouchPoint& p, const Body<double>& a, const Body<double>& b) {
+void set_row(double* row, const Vec2& u, const MiddleOfTouch& p, const Body<double>& a, const Body<double>& b) {
   row[0] = -u.x();
   row[1] = -u.y();
   row[2] = a.inv_inertia > 0.0 ? -cross<double>(p.arm_a, u) : 0.0;
@@ -58,10 +58,13 @@ void PreciseStep::add_point(Purpose purpose, std::uint32_t index, std::uint32_t 
   const Contact<double>& c = world_->contacts[t.contact];
   const Body<double>&a = world_->bodies[c.body_a], &b = world_->bodies[c.body_b];
   const TouchPoint& touch = t.touch.points[k];
-  const Vec2 normal = t.touch.normal, tangent = cross<double>(normal, 1.0);
+  // Impacts and shifts happen at once: there the middle is the moment itself.
+  const MiddleOfTouch middle = middle_of(*world_, c, t.touch.normal, touch, paths_[c.body_a], paths_[c.body_b],
+                                         purpose == Purpose::kForces ? duration : 0.0);
+  const Vec2 normal = middle.normal, tangent = cross<double>(normal, 1.0);
   ProblemPoint p;
-  set_row(p.normal, normal, touch, a, b);
-  set_row(p.tangent, tangent, touch, a, b);
+  set_row(p.normal, normal, middle, a, b);
+  set_row(p.tangent, tangent, middle, a, b);
   if (a.dynamic()) p.a = locals_[c.body_a];
   if (b.dynamic()) p.b = locals_[c.body_b];
   if (purpose == Purpose::kPlaces) {
@@ -70,8 +73,8 @@ void PreciseStep::add_point(Purpose purpose, std::uint32_t index, std::uint32_t 
     // What cannot be moved may move by itself.
     const Path still, &path_a = a.dynamic() ? still : paths_[c.body_a],
                       &path_b = b.dynamic() ? still : paths_[c.body_b];
-    p.drive_normal = parting_speed(normal, touch.arm_a, path_a, touch.arm_b, path_b);
-    p.drive_tangent = parting_speed(tangent, touch.arm_a, path_a, touch.arm_b, path_b);
+    p.drive_normal = parting_speed(normal, middle.arm_a, path_a, middle.arm_b, path_b) + middle.gain_normal;
+    p.drive_tangent = parting_speed(tangent, middle.arm_a, path_a, middle.arm_b, path_b) + middle.gain_tangent;
     p.friction = world_->model.friction ? c.friction : 0.0;
   }
   if (purpose == Purpose::kForces) {
@@ -82,7 +85,8 @@ void PreciseStep::add_point(Purpose purpose, std::uint32_t index, std::uint32_t 
   origins_.push_back({index, k});
 }
 
-// Overlap is taken back by a shift alone, the least in terms of mass: it gives nobody a velocity.
+// Overlap is taken back by a shift alone, the least in terms of mass: it gives nobody a velocity, but for the turn that
+// keeps angular momentum.
 void PreciseStep::part_overlaps() {
   bool overlaps = false;
   for (const Touching& t : touching_)
@@ -95,6 +99,12 @@ void PreciseStep::part_overlaps() {
     path.dx += problem_.bodies[i].velocity[0];
     path.dy += problem_.bodies[i].velocity[1];
     path.da += problem_.bodies[i].velocity[2];
+  }
+  for (std::size_t k = 0; k < origins_.size(); ++k) {
+    const ProblemPoint& p = problem_.points[k];
+    const Contact<double>& c = world_->contacts[touching_[origins_[k].touching].contact];
+    const Path &a = paths_[c.body_a], &b = paths_[c.body_b];
+    turn_both(c, -p.normal_impulse * (p.normal[3] * (b.vy - a.vy) - p.normal[4] * (b.vx - a.vx)));
   }
 }
 
@@ -166,6 +176,12 @@ void PreciseStep::take_forces(double duration) {
     const std::uint32_t contact = touching_[origins_[k].touching].contact, point = origins_[k].point;
     pairs_[contact].normal_force[point] = p.normal_impulse / duration;
     pairs_[contact].tangent_force[point] = p.tangent_impulse / duration;
+    const auto sum = [&](int i) {
+      return (p.normal_impulse * p.normal[i] + p.tangent_impulse * p.tangent[i]) / duration;
+    };
+    pairs_[contact].force_x += sum(3);
+    pairs_[contact].force_y += sum(4);
+    pairs_[contact].torque += sum(2) + sum(5);
     world_->contacts[contact].points[point].normal_impulse = p.normal_impulse * (h_ / duration);
     world_->contacts[contact].points[point].tangent_impulse = p.tangent_impulse * (h_ / duration);
   }

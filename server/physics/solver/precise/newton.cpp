@@ -65,19 +65,22 @@ void conform_impulses(ContactProblem& problem) {
   }
 }
 
+// What each point adds is summed by itself and the masses come last, so that it does not matter which of a body's two
+// points is the first: a mirror image gets the same forces to the last bit.
 void assemble(const ContactProblem& problem, ProblemWorkspace& work) {
   work.system.clear_values();
-  add_masses(problem, work);
   for (std::size_t k = 0; k < problem.points.size(); ++k) {
     const ProblemPoint& p = problem.points[k];
     if (p.state == PointState::kOpen) continue;
-    add_outer(problem, work, k, p.normal, p.normal, p.stiffness);
     if (p.state == PointState::kStick) {
-      add_outer(problem, work, k, p.tangent, p.tangent, p.stiffness);
-    } else if (p.friction > 0.0) {
-      add_outer(problem, work, k, p.tangent, p.normal, slip_of(p) * p.stiffness);
+      add_outers(problem, work, k, p.normal, p.normal, p.tangent, p.tangent, p.stiffness);
+      continue;
     }
+    double left[6];
+    for (int i = 0; i < 6; ++i) left[i] = p.normal[i] + slip_of(p) * p.tangent[i];
+    add_outer(problem, work, k, left, p.normal, p.stiffness);
   }
+  add_masses(problem, work);
 }
 
 // One repetition: the defect of momentum is zero because velocities follow from the impulses, so that only the points'
@@ -88,12 +91,11 @@ void correct(ContactProblem& problem, ProblemWorkspace& work) {
     const ProblemPoint& p = problem.points[k];
     if (p.state == PointState::kOpen) continue;
     const double normal = -p.stiffness * normal_velocity(problem, p);
-    add_row(problem, work, k, p.normal, normal);
-    if (p.state == PointState::kStick) {
-      add_row(problem, work, k, p.tangent, -p.stiffness * tangent_velocity(problem, p));
-    } else if (p.friction > 0.0) {
-      add_row(problem, work, k, p.tangent, slip_of(p) * normal);
-    }
+    const double tangent =
+        p.state == PointState::kStick ? -p.stiffness * tangent_velocity(problem, p) : slip_of(p) * normal;
+    double row[6];
+    for (int i = 0; i < 6; ++i) row[i] = normal * p.normal[i] + tangent * p.tangent[i];
+    add_row(problem, work, k, row, 1.0);
   }
   work.system.solve(work.right);
   for (ProblemPoint& p : problem.points) {
@@ -169,23 +171,29 @@ void add_masses(const ContactProblem& problem, ProblemWorkspace& work) {
   }
 }
 
-void add_outer(const ContactProblem& problem, ProblemWorkspace& work, std::size_t k, const double* left,
-               const double* right, double weight) {
+void add_outers(const ContactProblem& problem, ProblemWorkspace& work, std::size_t k, const double* left,
+                const double* right, const double* other_left, const double* other_right, double weight) {
   const ProblemPoint& p = problem.points[k];
   const ProblemWorkspace::Place& place = work.places[k];
-  const auto add = [&](std::size_t at, const double* l, const double* r) {
+  const auto add = [&](std::size_t at, int row, int column) {
     double* block = &work.system.values()[at];
     for (int i = 0; i < 3; ++i) {
-      const double scaled = weight * l[i];
-      for (int j = 0; j < 3; ++j) block[3 * i + j] += scaled * r[j];
+      const double first = weight * left[row + i], second = weight * other_left[row + i];
+      for (int j = 0; j < 3; ++j) block[3 * i + j] += first * right[column + j] + second * other_right[column + j];
     }
   };
-  if (p.a != kNone) add(place.aa, left, right);
-  if (p.b != kNone) add(place.bb, left + 3, right + 3);
+  if (p.a != kNone) add(place.aa, 0, 0);
+  if (p.b != kNone) add(place.bb, 3, 3);
   if (p.a != kNone && p.b != kNone) {
-    add(place.ab, left, right + 3);
-    add(place.ba, left + 3, right);
+    add(place.ab, 0, 3);
+    add(place.ba, 3, 0);
   }
+}
+
+void add_outer(const ContactProblem& problem, ProblemWorkspace& work, std::size_t k, const double* left,
+               const double* right, double weight) {
+  constexpr double kNothing[6] = {};
+  add_outers(problem, work, k, left, right, kNothing, kNothing, weight);
 }
 
 void add_row(const ContactProblem& problem, ProblemWorkspace& work, std::size_t k, const double* row, double weight) {

@@ -36,6 +36,9 @@ void add_masses(const ContactProblem& problem, ProblemWorkspace& work);
 // matrix += weight · left rightᵀ of point k.
 void add_outer(const ContactProblem& problem, ProblemWorkspace& work, std::size_t k, const double* left,
                const double* right, double weight);
+// The same of two products at once.
+void add_outers(const ContactProblem& problem, ProblemWorkspace& work, std::size_t k, const double* left,
+                const double* right, const double* other_left, const double* other_right, double weight);
 // right side += weight · row of point k.
 void add_row(const ContactProblem& problem, ProblemWorkspace& work, std::size_t k, const double* row, double weight);
 double dot_row(const ContactProblem& problem, const std::vector<double>& x, const ProblemPoint& point,

@@ -10,8 +10,9 @@ namespace {
 // Faces that look at each other up to this angle lie on each other.
 constexpr double kFlushAngle = 1e-9;  // rad
 
-// The first s > 0 with rate·s + gain·s²/2 = angle, or a negative number.
+// The first s > 0 with rate·s + gain·s²/2 = angle, or a negative number. An angle of nothing is come back to.
 double first_turn_by(double angle, double rate, double gain) {
+  if (absolute(angle) < kFlushAngle) return rate * gain < 0.0 ? -2 * rate / gain : -1.0;
   if (gain == 0.0) return rate == 0.0 ? -1.0 : angle / rate;
   const double under = rate * rate + 2 * gain * angle;
   if (under < 0.0) return -1.0;
@@ -45,7 +46,6 @@ std::optional<double> PreciseStep::closing_time(std::uint32_t contact, double no
   for (std::uint32_t face : {corner, corner == 0 ? incident.count - 1 : corner - 1}) {
     const Vec2 normal = turn.apply(incident.normals[face]);
     const double angle = atan2_of(cross<double>(normal, -outward), dot<double>(normal, -outward));
-    if (absolute(angle) < kFlushAngle) continue;
     const double s = first_turn_by(angle, rate, gain);
     if (s > 0.0) first = min_of(first, now + s);
   }

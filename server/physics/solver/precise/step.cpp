@@ -139,8 +139,10 @@ void PreciseStep::take(const Event& event) {
 }
 
 void PreciseStep::finish() {
+  for (std::uint32_t slot : world_->awake) paths_[slot] = paths_[slot].from(h_);
+  for (const ActiveContact& active : world_->active) account(active.contact, h_);
   for (std::uint32_t slot : world_->awake) {
-    const Path end = paths_[slot].from(h_);
+    const Path& end = paths_[slot];
     Motion<double>& m = world_->motions[slot];
     m.vx = end.vx;
     m.vy = end.vy;
@@ -150,7 +152,6 @@ void PreciseStep::finish() {
     m.da = end.da;
     rotation_by(m.da, m.c, m.s);
   }
-  for (const ActiveContact& active : world_->active) account(active.contact, h_);
 }
 
 }  // namespace urto

@@ -20,6 +20,7 @@ class PreciseStep {
   // What the step knows of a contact besides what the world does.
   struct Pair {
     double normal_force[2] = {0, 0}, tangent_force[2] = {0, 0};  // N, at the contact's points
+    double force_x = 0, force_y = 0, torque = 0;                 // N on b, −N on a, and N·m on both together
     double since = 0;                                            // s into the step: from when on they act
     double silent_until = 0;                                     // s into the step: not looked at before
     double silence = 0;                                          // s, of the last time that it was looked at in vain
@@ -71,6 +72,8 @@ class PreciseStep {
   void join(std::uint32_t slot, double now);
   bool far_apart(const Contact<double>& c, const Path& a, const Path& b) const;
   void account(std::uint32_t contact, double now);
+  void balance(std::uint32_t contact, double now);
+  void turn_both(const Contact<double>& c, double angular_impulse);
   void adopt(const Touching& touching);
   void stop_cluster();
 

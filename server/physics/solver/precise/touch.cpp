@@ -1,5 +1,6 @@
 #include "physics/solver/precise/touch.h"
 
+#include "physics/motion.h"
 #include "physics/narrow_phase/manifold.h"
 #include "physics/solver/precise/tolerances.h"
 
@@ -14,6 +15,10 @@ constexpr double kSameDirection = 1e-3;
 // Of two directions in which corners approach, this share of the greater speed makes them equal.
 constexpr double kEvenly = 0.5;
 constexpr std::uint32_t kNoCorner = 0xff;  // in the place of a corner's number
+// 1 − cosine of the angle between a normal and the face that it is of: rounding.
+constexpr double kFaceTurn = 1e-14;
+constexpr double kTurningMin = 1e-12;  // rad/s, below which arcs are straight
+constexpr double kTurnMax = 0.25;      // rad, to the middle of an interval: faster turns are not followed so far
 
 std::uint32_t after(const Outline& shape, std::uint32_t i) { return i + 1 < shape.count ? i + 1 : 0; }
 
@@ -22,6 +27,14 @@ double separation_of(const Outline& reference, std::uint32_t face, const Outline
   double least = dot<double>(normal, other.vertices[0]);
   for (std::uint32_t i = 1; i < other.count; ++i) least = min_of(least, dot<double>(normal, other.vertices[i]));
   return least - dot<double>(normal, reference.vertices[face]);
+}
+
+bool has_face_along(const Outline& shape, const Rotation<double>& turn, const Vec2& outward) {
+  if (shape.count < 2) return false;
+  const Vec2 local = turn.apply_inverse(outward);
+  for (std::uint32_t i = 0; i < shape.count; ++i)
+    if (dot<double>(shape.normals[i], local) > 1.0 - kFaceTurn) return true;
+  return false;
 }
 
 std::uint32_t facing(const Outline& other, const Vec2& normal) {
@@ -175,6 +188,54 @@ class Toucher {
 double parting_speed(const Vec2& normal, const Vec2& arm_a, const Path& a, const Vec2& arm_b, const Path& b) {
   return normal.x() * ((b.vx - a.vx) - (b.w * arm_b.y() - a.w * arm_a.y())) +
          normal.y() * ((b.vy - a.vy) + (b.w * arm_b.x() - a.w * arm_a.x()));
+}
+
+// Where a face of the one meets a corner of the other, the gap is that of the corner (its centre if it is round) from
+// the face: φ = n·(p − q) with n and q fixed to the face's body, so
+//   φ″ = n·(p″ − q″) − 2 ω n·(1 × v),
+// the centripetal and Coriolis terms in the frame of the face. Where two corners meet it is the distance of their
+// centres d, and φ″ = n·(p″ − q″) + (t·v)²/d.
+MiddleOfTouch middle_of(const WorldData<double>& world, const Contact<double>& contact, const Vec2& normal,
+                        const TouchPoint& point, const Path& path_a, const Path& path_b, double duration) {
+  const double wa = path_a.w, wb = path_b.w, fastest = max_of(absolute(wa), absolute(wb));
+  MiddleOfTouch m;
+  m.normal = normal;
+  m.arm_a = point.arm_a;
+  m.arm_b = point.arm_b;
+  if (fastest < kTurningMin) return m;
+  const Outline &a = world.convexes[contact.shape_a], &b = world.convexes[contact.shape_b];
+  const bool face_a = has_face_along(a, Stance(world.bodies[contact.body_a], path_a).q, normal);
+  const bool face_b = !face_a && has_face_along(b, Stance(world.bodies[contact.body_b], path_b).q, -normal);
+  const double half = min_of(0.5 * duration, kTurnMax / fastest), radii = a.radius + b.radius;
+  Rotation<double> turn_a, turn_b;
+  rotation_by(half * wa, turn_a.c, turn_a.s);
+  rotation_by(half * wb, turn_b.c, turn_b.s);
+  const Vec2 velocity(path_b.vx - path_a.vx, path_b.vy - path_a.vy);
+  const Vec2 apart = point.arm_a - point.arm_b + velocity * half;
+  const Vec2 core_a = turn_a.apply(point.arm_a - normal * a.radius),
+             core_b = turn_b.apply(point.arm_b + normal * b.radius);
+  const Vec2 between_cores = core_b + apart - core_a;
+  if (face_a || face_b) {
+    m.normal = (face_a ? turn_a : turn_b).apply(normal);
+  } else if (radii > 0.0 && length<double>(between_cores) > 0.5 * radii) {
+    m.normal = between_cores / length<double>(between_cores);
+  }
+  m.arm_a = face_a ? Vec2(core_b + apart - m.normal * b.radius) : Vec2(core_a + m.normal * a.radius);
+  m.arm_b = m.arm_a - apart;
+  // The two material points whose gap it is: both at the corner, but for two corners.
+  const Vec2 arm_a = face_a ? Vec2(core_b + apart) : core_a, arm_b = face_b ? Vec2(core_a - apart) : core_b;
+  const Vec2 tangent = cross<double>(m.normal, 1.0);
+  const Vec2 v = velocity + cross<double>(wb, arm_b) - cross<double>(wa, arm_a);
+  const Vec2 arc = arm_a * (wa * wa) - arm_b * (wb * wb);
+  double gain = dot<double>(m.normal, arc);
+  if (face_a || face_b) {
+    gain -= 2 * (face_a ? wa : wb) * dot<double>(m.normal, cross<double>(1.0, v));
+  } else if (radii > 0.0) {
+    gain += dot<double>(tangent, v) * dot<double>(tangent, v) / radii;
+  }
+  m.gain_normal = (duration - half) * gain;
+  m.gain_tangent = (duration - half) * dot<double>(tangent, arc);
+  return m;
 }
 
 Touch find_touch(const WorldData<double>& world, const Contact<double>& contact, const Path& path_a, const Path& path_b,
