@@ -111,19 +111,32 @@ bool still_bounded(const WorldData<S>& world, const Body<S>& body, Proxy proxy) 
 }
 
 template <class S>
+void fatten(WorldData<S>& world, Proxy proxy) {
+  Shape<S>& shape = world.shapes[proxy];
+  shape.fat = swept_bounds(world, proxy).expanded(shape.reach).expanded(shape.margin);
+}
+
+template <class S>
 void follow_body(WorldData<S>& world, std::uint32_t slot, std::vector<Proxy>& left) {
   refresh_places(world, slot);
   const Body<S>& body = world.bodies[slot];
-  for (Proxy proxy = body.first_shape; proxy != kNone; proxy = world.shapes[proxy].next)
-    if (!still_bounded(world, body, proxy)) left.push_back(proxy);
+  for (Proxy proxy = body.first_shape; proxy != kNone; proxy = world.shapes[proxy].next) {
+    if (still_bounded(world, body, proxy)) continue;
+    fatten(world, proxy);
+    left.push_back(proxy);
+  }
+}
+
+template <class S>
+void announce_bounds(WorldData<S>& world, Proxy proxy) {
+  world.broad_phase->move(proxy, world.shapes[proxy].fat);
+  mark_moved(world, proxy);
 }
 
 template <class S>
 void refresh_bounds(WorldData<S>& world, Proxy proxy) {
-  Shape<S>& shape = world.shapes[proxy];
-  shape.fat = swept_bounds(world, proxy).expanded(shape.reach).expanded(shape.margin);
-  world.broad_phase->move(proxy, shape.fat);
-  mark_moved(world, proxy);
+  fatten(world, proxy);
+  announce_bounds(world, proxy);
 }
 
 template <class S>
@@ -167,6 +180,7 @@ void update_broad_phase(WorldData<S>& world) {
   template Aabb<S> way_bounds(const WorldData<S>&, Proxy);                      \
   template void mark_moved(WorldData<S>&, Proxy);                               \
   template void follow_body(WorldData<S>&, std::uint32_t, std::vector<Proxy>&); \
+  template void announce_bounds(WorldData<S>&, Proxy);                          \
   template void refresh_bounds(WorldData<S>&, Proxy);                           \
   template void reset_bounds(WorldData<S>&, std::uint32_t);                     \
   template void update_broad_phase(WorldData<S>&);

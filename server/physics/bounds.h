@@ -19,10 +19,14 @@ Aabb<S> swept_bounds(const WorldData<S>& world, Proxy proxy);
 template <class S>
 Aabb<S> way_bounds(const WorldData<S>& world, Proxy proxy);
 
-// Sets a body's places after it moved and appends its proxies that left their fat bounds to `left`. Bodies may be
-// followed side by side.
+// Sets a body's places after it moved, and its proxies' fat bounds where they were left: those it appends to `left`, to
+// be announced. Bodies may be followed side by side.
 template <class S>
 void follow_body(WorldData<S>& world, std::uint32_t slot, std::vector<Proxy>& left);
+
+// Tells the broad phase of a proxy's new fat bounds.
+template <class S>
+void announce_bounds(WorldData<S>& world, Proxy proxy);
 
 // Sets a proxy's fat bounds anew, in the broad phase too.
 template <class S>

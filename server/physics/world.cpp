@@ -145,7 +145,7 @@ void WorldOf<S>::finish_motions() {
     }
   });
   for (const std::vector<Proxy>& proxies : left)
-    for (Proxy proxy : proxies) refresh_bounds(data_, proxy);
+    for (Proxy proxy : proxies) announce_bounds(data_, proxy);
   for (std::uint32_t slot : data_.scratch.stretched) reset_bounds(data_, slot);
   data_.scratch.stretched.clear();
 }

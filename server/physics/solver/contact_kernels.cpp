@@ -2,6 +2,8 @@
 // a system header is left out of the dependencies that the compiler writes.
 #include "physics/solver/contact_kernels.h"
 
+#include <atomic>
+
 #include "physics/constants.h"
 #include "physics/simd/targets.h"
 
@@ -574,6 +576,42 @@ const ContactPasses<double>& contact_passes<double>() {
   return *HWY_DYNAMIC_DISPATCH(double_passes)();
 }
 
+// AVX2 is the widest of the targets whose vectors take half a block.
+#if !defined(HWY_COMPILE_ONLY_STATIC) && (HWY_TARGETS & HWY_AVX2) != 0
+namespace {
+// Kept, for to ask is to ask the processor, which a virtual machine answers slowly.
+std::atomic<bool>& has_half() {
+  static std::atomic<bool> known{(hwy::SupportedTargets() & HWY_AVX2) != 0};
+  return known;
+}
+// Better targets have lower numbers.
+void learn_half(std::int64_t id) {
+  hwy::SetSupportedTargetsForTest(0);
+  has_half() = (hwy::SupportedTargets() & HWY_AVX2) != 0 && id <= HWY_AVX2;
+}
+}  // namespace
+template <>
+const ContactPasses<float>& half_passes<float>() {
+  return has_half() ? *N_AVX2::float_passes() : contact_passes<float>();
+}
+template <>
+const ContactPasses<double>& half_passes<double>() {
+  return has_half() ? *N_AVX2::double_passes() : contact_passes<double>();
+}
+#else
+namespace {
+void learn_half(std::int64_t) {}
+}  // namespace
+template <>
+const ContactPasses<float>& half_passes<float>() {
+  return contact_passes<float>();
+}
+template <>
+const ContactPasses<double>& half_passes<double>() {
+  return contact_passes<double>();
+}
+#endif
+
 #ifdef HWY_COMPILE_ONLY_STATIC  // for one processor, without Highway's library
 std::vector<SimdTarget> simd_targets() { return {{HWY_STATIC_TARGET, "static"}}; }
 void use_simd_target(std::int64_t) {}
@@ -589,6 +627,7 @@ std::vector<SimdTarget> simd_targets() {
 }
 
 void use_simd_target(std::int64_t id) {
+  learn_half(id);
   hwy::SetSupportedTargetsForTest(id);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }

@@ -45,6 +45,10 @@ struct ContactPasses {
 
 template <class S>
 const ContactPasses<S>& contact_passes();
+// The same for blocks of which at most half the lanes are used: where a vector takes a whole block, these are of half
+// the width, and cost half as much.
+template <class S>
+const ContactPasses<S>& half_passes();
 
 // For tests and benchmarks: the instruction sets that this machine can run, best first, and the choice of one of them
 // for all worlds from now on (0: the best).

@@ -1,5 +1,7 @@
 #include "physics/solver/soft_step.h"
 
+#include <algorithm>
+
 #include "physics/constants.h"
 #include "physics/motion.h"
 #include "physics/solver/contact_kernels.h"
@@ -88,6 +90,14 @@ std::uint32_t color_at(std::uint32_t place, Order order) {
   return order == Order::kBackwards && place < kMovableColors ? kMovableColors - 1 - place : place;
 }
 
+// The blocks with more than half their lanes in use: all but the last, or none of those that hold one lane each.
+template <class S>
+std::size_t full_blocks(const typename ContactSet<S>::Color& color) {
+  constexpr std::uint32_t kHalf = static_cast<std::uint32_t>(kLanes<S>) / 2;
+  if (color.blocks.front().count <= kHalf) return 0;
+  return color.blocks.size() - (color.blocks.back().count <= kHalf ? 1 : 0);
+}
+
 // Colour after colour, those with unmovable bodies last; the blocks of one are shared out. Those that fit no colour are
 // solved one after the other.
 template <class S, class Work>
@@ -113,10 +123,13 @@ void solve_soft_step(WorldData<S>& world, JointSet<S>& joint_set) {
   const bool pulled = only_gravity_acts(world, mover);
   const PassSettings<S> between = pass_settings(world, h, S(1));
   const PassSettings<S> on_ground = pass_settings(world, h, S(kGroundStiffness));
-  const ContactPasses<S>& passes = contact_passes<S>();
-  const auto run = [&](typename ContactPasses<S>::Pass pass, Order order) {
+  const ContactPasses<S>&passes = contact_passes<S>(), &half = half_passes<S>();
+  const auto run = [&](typename ContactPasses<S>::Pass ContactPasses<S>::*pass, Order order) {
     for_each_color(world, order, [&](auto& color, bool ground, std::size_t begin, std::size_t end) {
-      pass(world.motions.data(), &color.blocks[begin], end - begin, ground ? on_ground : between);
+      const PassSettings<S>& settings = ground ? on_ground : between;
+      const std::size_t full = std::clamp(full_blocks<S>(color), begin, end);
+      if (begin < full) (passes.*pass)(world.motions.data(), &color.blocks[begin], full - begin, settings);
+      if (full < end) (half.*pass)(world.motions.data(), &color.blocks[full], end - full, settings);
     });
   };
   JointPasses<S> joints(world, joint_set, h);
@@ -135,12 +148,12 @@ void solve_soft_step(WorldData<S>& world, JointSet<S>& joint_set) {
     }
     note(passes.note_bounce);
     joints.warm_start();
-    run(passes.warm_start, Order::kForwards);
+    run(&ContactPasses<S>::warm_start, Order::kForwards);
     joints.solve();
-    run(passes.solve, i % 2 == 0 ? Order::kForwards : Order::kBackwards);
+    run(&ContactPasses<S>::solve, i % 2 == 0 ? Order::kForwards : Order::kBackwards);
     integrate_positions(world, mover);
     joints.relax();
-    run(i + 1 < n ? passes.relax : passes.relax_last, Order::kBackwards);
+    run(i + 1 < n ? &ContactPasses<S>::relax : &ContactPasses<S>::relax_last, Order::kBackwards);
     if (world.model.restitution) {
       for_each_color(world, Order::kForwards, [&](auto& color, bool, std::size_t begin, std::size_t end) {
         passes.restitute(world.motions.data(), &color.blocks[begin], &color.rest[begin], end - begin);
