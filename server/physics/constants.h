@@ -15,6 +15,9 @@ inline constexpr double kSpeculativeFraction = 0.2;  // of the shape's smallest 
 inline constexpr double kFatMarginFraction = 0.12;
 inline constexpr double kFatMarginMin = 0.01;  // m
 inline constexpr double kFatMarginMax = 0.1;   // m
+// From this ratio of the least to the greatest extent on, an outline is bounded by the disc around it, which is wider
+// by an eighth at most (mean width of an outline: its perimeter / π).
+inline constexpr double kNearlyRound = 0.65;
 
 // Overlap is undone no faster than this, so that a deep overlap does not become an explosion.
 inline constexpr double kPushSpeedMax = 3.0;  // m/s

@@ -362,20 +362,6 @@ bool meets(const Contact<S>& c) {
   return false;
 }
 
-// Bit mask of the lanes whose surfaces meet or push. A point that is not there does neither.
-template <class S>
-std::uint32_t meeting_lanes(const ContactBlock<S>& block, const ContactBlockRest<S>& rest) {
-  std::uint32_t meeting = 0;
-  for (std::uint32_t lane = 0; lane < block.count; ++lane) {
-    const PointLanes<S>&p = block.points[0], &q = block.points[1];
-    const bool meet = (p.separation[lane] <= S(0)) | (p.total_normal_impulse[lane] > S(0)) |
-                      (q.separation[lane] <= S(0)) | (q.total_normal_impulse[lane] > S(0)) |
-                      (rest.id[0][lane] == S(kIdlePoint));
-    meeting |= static_cast<std::uint32_t>(meet) << lane;
-  }
-  return meeting;
-}
-
 template <class S>
 void report_lane(WorldData<S>& world, std::uint32_t slot, const ContactBlockRest<S>& rest, std::uint32_t lane) {
   toggle_touch(world, world.contacts[slot]);
@@ -389,7 +375,7 @@ void report_lanes(WorldData<S>& world) {
   for (auto& color : world.touching.colors) {
     for (std::size_t i = 0; i < color.blocks.size(); ++i) {
       ContactBlockRest<S>& rest = color.rest[i];
-      const std::uint32_t meeting = meeting_lanes(color.blocks[i], rest);
+      const std::uint32_t meeting = contact_passes<S>().meeting(color.blocks[i], rest);
       for (std::uint32_t changed = meeting ^ rest.begun; changed != 0; changed &= changed - 1) {
         const auto lane = static_cast<std::uint32_t>(__builtin_ctz(changed));
         report_lane(world, rest.contact[lane], rest, lane);

@@ -55,9 +55,9 @@ struct Scratch {
   std::vector<std::pair<Proxy, Proxy>> pairs;
   std::vector<Proxy> proxies;
   std::vector<std::uint32_t> stack;
-  std::vector<std::uint32_t> parent;                // union-find, by awake index
-  std::vector<std::uint32_t> member;                // by body slot, see sleep.cpp
-  std::vector<std::uint8_t> restless;               // by root
+  std::vector<std::vector<std::uint32_t>> restful;  // body slots, a list for each part of a shared loop
+  std::vector<std::uint32_t> parent;                // union-find, by body slot
+  std::vector<std::uint8_t> rest, kept_awake;       // by body slot, see sleep.cpp
   std::vector<Vec<S>> pulls;                        // m/s, by awake index
   std::vector<std::uint32_t> stretched;             // body slots, see continuous.h
   std::vector<std::uint32_t> parted, met;           // contact slots

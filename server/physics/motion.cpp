@@ -7,9 +7,8 @@ namespace urto {
 
 template <class S>
 void rotation_by(S angle, S& c, S& s) {
-  // Below a quarter the Taylor terms left out are under 1e-17 (sine to x¹⁵, cosine to x¹⁴; float needs fewer).
-  constexpr S kSmall = S(0.25);
-  if (absolute(angle) > kSmall) return sin_cos(angle, s, c);
+  // Up to here the Taylor terms left out are under 1e-17 (sine to x¹⁵, cosine to x¹⁴; float needs fewer).
+  if (absolute(angle) > S(kSmallTurn)) return sin_cos(angle, s, c);
   const S q = angle * angle;
   if constexpr (sizeof(S) == 4) {
     s = angle * (S(1) + q * (S(-1.0 / 6) + q * (S(1.0 / 120) + q * S(-1.0 / 5040))));
@@ -100,35 +99,10 @@ void saturate(Motion<S>& motion) {
   motion.w = clamp_to(motion.w, -turn_most, turn_most);
 }
 
-template <class S>
-void finish_motion(Body<S>& body, Motion<S>& motion, S time_step) {
-  saturate(motion);
-  const S most = S(kSpeedMax) * time_step, turn_most = S(kAngularSpeedMax) * time_step;
-  motion.dx = clamp_to(motion.dx, -most, most);
-  motion.dy = clamp_to(motion.dy, -most, most);
-  motion.da = clamp_to(motion.da, -turn_most, turn_most);
-  body.x += motion.dx;
-  body.y += motion.dy;
-  if (motion.da != S(0)) {
-    body.angle = wrap_angle(body.angle + motion.da);
-    sin_cos(body.angle, body.s, body.c);
-  }
-  // Also what the velocities do not show: bodies that overlap are pushed apart by bias alone.
-  const S turn = absolute(motion.da) * body.extent_max, turning = absolute(motion.w) * body.extent_max;
-  const S way2 = (motion.dx * motion.dx + motion.dy * motion.dy + turn * turn) / (time_step * time_step);
-  const S speed2 = max_of(way2, motion.vx * motion.vx + motion.vy * motion.vy + turning * turning);
-  motion.dx = motion.dy = motion.da = S(0);
-  motion.c = S(1);
-  motion.s = S(0);
-  body.sleep_time = speed2 > S(kSleepSpeed * kSleepSpeed) ? S(0) : body.sleep_time + time_step;
-}
-
 template class Mover<float>;
 template class Mover<double>;
 template void saturate(Motion<float>&);
 template void saturate(Motion<double>&);
-template void finish_motion(Body<float>&, Motion<float>&, float);
-template void finish_motion(Body<double>&, Motion<double>&, double);
 template void rotation_by(float, float&, float&);
 template void rotation_by(double, double&, double&);
 

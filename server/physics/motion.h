@@ -37,11 +37,8 @@ class Mover {
 template <class S>
 void saturate(Motion<S>& motion);
 
-// Ends a step for one body: takes over the way it came, and counts how long it has been slow.
-template <class S>
-void finish_motion(Body<S>& body, Motion<S>& motion, S time_step);
-
 // The rotation by a small or large angle, without the full reduction when it is small.
+inline constexpr double kSmallTurn = 0.25;  // rad
 template <class S>
 void rotation_by(S angle, S& c, S& s);
 

@@ -9,6 +9,7 @@
 #include "physics/contact_graph.h"
 #include "physics/contacts.h"
 #include "physics/continuous.h"
+#include "physics/end_of_step.h"
 #include "physics/hits.h"
 #include "physics/joint_graph.h"
 #include "physics/joint_state.h"
@@ -110,7 +111,7 @@ void WorldOf<S>::step() {
     if (data_.model.continuous) collide_continuously(data_);
   });
   run(Phase::kUpdateSleep, [&] {
-    finish_motions();
+    end_motions(data_);
     report_contact_events(data_);
     if (data_.settings.hit_events) report_hits(data_);
     if (data_.model.joints) break_joints(data_);
@@ -131,23 +132,6 @@ void WorldOf<S>::solve() {
       if constexpr (std::is_same_v<S, double>) precise_.solve(data_);
       return;
   }
-}
-
-template <class S>
-void WorldOf<S>::finish_motions() {
-  const S time_step = S(data_.settings.time_step);
-  std::vector<std::vector<Proxy>>& left = lists_by_part(data_);
-  data_.team->share(data_.awake.size(), kBodiesPerShare, [&](unsigned part, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::uint32_t slot = data_.awake[i];
-      finish_motion(data_.bodies[slot], data_.motions[slot], time_step);
-      follow_body(data_, slot, left[part]);
-    }
-  });
-  for (const std::vector<Proxy>& proxies : left)
-    for (Proxy proxy : proxies) announce_bounds(data_, proxy);
-  for (std::uint32_t slot : data_.scratch.stretched) reset_bounds(data_, slot);
-  data_.scratch.stretched.clear();
 }
 
 // Bodies --------------------------------------------------------------------------------------------------------

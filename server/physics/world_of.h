@@ -79,7 +79,6 @@ class WorldOf final : public World {
   // kUnknownBody, or kWrongBodyType if `dynamic` is asked for and the body is not.
   Status check_target(BodyId id, bool dynamic) const;
   void solve();
-  void finish_motions();
   template <class PhaseFunction>
   void run(Phase phase, PhaseFunction&& function);
 

@@ -91,15 +91,18 @@ inline void sin_cos_near(double x, double& sine, double& cosine) {
 }
 
 // For float the double has bits to spare: two parts of π/2, polynomials of three terms (errors 2⁻²⁸ and 2⁻³³), and one
-// rounding at the end, which is within 0.6 ulp.
+// rounding at the end, which is within 0.6 ulp. In ascending order.
+inline constexpr double kFloatSine[] = {-0x1.555545995452bp-3, 0x1.1107604faf4b4p-7, -0x1.994eb296058cap-13};
+inline constexpr double kFloatCosine[] = {0x1.55554ab3feca7p-5, -0x1.6c0c8bb674f83p-10, 0x1.9a0258e698a45p-16};
+
 inline void sin_cos_near(float x, float& sine, float& cosine) {
   const double angle = x;
   const std::int32_t n = nearest_integer(angle * kTwoOverPi);
   const double turns = n;
   const double r = (angle - turns * kHalfPi1) - turns * kHalfPi2;
   const double z = r * r;
-  const double p = (-0x1.994eb296058cap-13 * z + 0x1.1107604faf4b4p-7) * z - 0x1.555545995452bp-3;
-  const double q = (0x1.9a0258e698a45p-16 * z - 0x1.6c0c8bb674f83p-10) * z + 0x1.55554ab3feca7p-5;
+  const double p = (kFloatSine[2] * z + kFloatSine[1]) * z + kFloatSine[0];
+  const double q = (kFloatCosine[2] * z + kFloatCosine[1]) * z + kFloatCosine[0];
   const double s = r + r * z * p;
   const double c = (1.0 - 0.5 * z) + z * z * q;
   place_quadrant(n, static_cast<float>(s), static_cast<float>(c), sine, cosine);

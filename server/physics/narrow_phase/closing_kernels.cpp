@@ -29,9 +29,7 @@ HWY_INLINE std::uint32_t closing_vector(const Place<S>* places, const std::uint3
   // A bound is half of a least extent.
   const auto fine = hn::Mul(set(S(2 * kFastFraction)), smaller(a2.c1, b2.c1));
   const auto closing = hn::And(hn::Gt(hn::Add(a3.c3, b3.c3), hn::Zero(Tag<S>())), hn::Gt(way, fine));
-  std::uint8_t bits[8] = {};
-  hn::StoreMaskBits(Tag<S>(), closing, bits);
-  return bits[0] | static_cast<std::uint32_t>(bits[1]) << 8;
+  return bits_of<S>(closing);
 }
 
 template <class S>

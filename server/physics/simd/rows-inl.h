@@ -51,6 +51,14 @@ HWY_INLINE V smaller(V a, V b) {
   return hn::IfThenElse(hn::Lt(b, a), b, a);
 }
 
+// A bit for each lane.
+template <class S>
+HWY_INLINE std::uint32_t bits_of(Mask<S> mask) {
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(Tag<S>(), mask, bits);
+  return bits[0] | static_cast<std::uint32_t>(bits[1]) << 8;
+}
+
 // Four vectors: one for each column of the rows.
 template <class S>
 struct Columns {

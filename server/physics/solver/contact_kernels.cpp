@@ -543,6 +543,20 @@ void restitute(Motion<S>* motions, ContactBlock<S>* blocks, const ContactBlockRe
 }
 
 template <class S>
+std::uint32_t meeting(const ContactBlock<S>& block, const ContactBlockRest<S>& rest) {
+  const auto zero = hn::Zero(Tag<S>());
+  std::uint32_t meeting = 0;
+  for (std::size_t lane = 0; lane < block.count; lane += hn::Lanes(Tag<S>())) {
+    auto meets = hn::Eq(load(rest.id[0] + lane), set(S(kIdlePoint)));
+    for (const PointLanes<S>& p : block.points)
+      meets = hn::Or(
+          meets, hn::Or(hn::Le(load(p.separation + lane), zero), hn::Gt(load(p.total_normal_impulse + lane), zero)));
+    meeting |= bits_of<S>(meets) << lane;
+  }
+  return meeting & ((1u << block.count) - 1);
+}
+
+template <class S>
 constexpr ContactPasses<S> kPasses{take<S>,
                                    warm_start<S>,
                                    solve<S>,
@@ -550,7 +564,8 @@ constexpr ContactPasses<S> kPasses{take<S>,
                                    relax<S, true>,
                                    note_approach<S, false>,
                                    note_approach<S, true>,
-                                   restitute<S>};
+                                   restitute<S>,
+                                   meeting<S>};
 
 }  // namespace
 

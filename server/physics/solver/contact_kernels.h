@@ -41,6 +41,8 @@ struct ContactPasses {
                         const PassSettings<S>& settings);
   Note note_approach, note_bounce;
   void (*restitute)(Motion<S>* motions, ContactBlock<S>* blocks, const ContactBlockRest<S>* rest, std::size_t count);
+  // Bit mask of the used lanes whose surfaces meet or push. A point that is not there does neither.
+  std::uint32_t (*meeting)(const ContactBlock<S>& block, const ContactBlockRest<S>& rest);
 };
 
 template <class S>

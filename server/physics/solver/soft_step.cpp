@@ -4,6 +4,7 @@
 
 #include "physics/constants.h"
 #include "physics/motion.h"
+#include "physics/motion_kernels.h"
 #include "physics/solver/contact_kernels.h"
 #include "physics/solver/joint_passes.h"
 #include "physics/solver/softness.h"
@@ -56,7 +57,13 @@ void integrate_velocities(WorldData<S>& world, const Mover<S>& mover) {
 }
 
 template <class S>
-void integrate_positions(WorldData<S>& world, const Mover<S>& mover) {
+void integrate_positions(WorldData<S>& world, const Mover<S>& mover, S h) {
+  if (!world.model.second_integrator) {
+    world.team->share(world.awake.size(), kBodiesPerShare, [&](unsigned, std::size_t begin, std::size_t end) {
+      motion_kernels<S>().integrate_positions(world.motions.data(), &world.awake[begin], end - begin, h);
+    });
+    return;
+  }
   world.team->share(world.awake.size(), kBodiesPerShare, [&](unsigned, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t slot = world.awake[i];
@@ -151,7 +158,7 @@ void solve_soft_step(WorldData<S>& world, JointSet<S>& joint_set) {
     run(&ContactPasses<S>::warm_start, Order::kForwards);
     joints.solve();
     run(&ContactPasses<S>::solve, i % 2 == 0 ? Order::kForwards : Order::kBackwards);
-    integrate_positions(world, mover);
+    integrate_positions(world, mover, h);
     joints.relax();
     run(i + 1 < n ? &ContactPasses<S>::relax : &ContactPasses<S>::relax_last, Order::kBackwards);
     if (world.model.restitution) {
