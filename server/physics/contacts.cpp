@@ -117,6 +117,13 @@ void collide_lanes(const WorldData<S>& world, const ContactBlock<S>& block, cons
 }
 
 template <class S>
+void take(const WorldData<S>& world, const ManifoldLanes<S>& manifolds, ContactBlock<S>& block,
+          ContactBlockRest<S>& rest) {
+  const bool half = block.count <= static_cast<std::uint32_t>(kLanes<S>) / 2;
+  (half ? half_passes<S>() : contact_passes<S>()).take(world.motions.data(), manifolds, block, rest);
+}
+
+template <class S>
 void list_blocks(ContactSet<S>& set) {
   set.blocks.clear();
   for (auto& color : set.colors)
@@ -147,7 +154,7 @@ void update_ground_lanes(WorldData<S>& world, std::size_t first, std::vector<std
   join_seams(world);
   world.team->share(count, kBlocksPerShare, [&](unsigned, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      contact_passes<S>().take(world.motions.data(), manifolds[i], *blocks[first + i].block, *blocks[first + i].rest);
+      take(world, manifolds[i], *blocks[first + i].block, *blocks[first + i].rest);
   });
   finish_seams(world);
   // After those of all parts, so that the order does not depend on how many there are.
@@ -167,7 +174,7 @@ void update_lanes(WorldData<S>& world) {
     ManifoldLanes<S> manifolds{};
     for (std::size_t i = begin; i < end; ++i) {
       collide_lanes(world, *blocks[i].block, *blocks[i].rest, manifolds);
-      contact_passes<S>().take(world.motions.data(), manifolds, *blocks[i].block, *blocks[i].rest);
+      take(world, manifolds, *blocks[i].block, *blocks[i].rest);
       list_parted(manifolds, *blocks[i].block, *blocks[i].rest, parted[part]);
     }
   });
