@@ -48,9 +48,9 @@ class Sweeps:
 
 QUICK = Sweeps(sub_steps=(1, 4, 16), scales=(2, 0.25), thesis=(15, 60), peer_sub_steps=(1, 16))
 FULL = Sweeps(
-    sub_steps=(1, 2, 4, 8, 16, 32, 64),
+    sub_steps=(1, 2, 4, 8, 16, 32),
     scales=(4, 2, 0.5, 0.25, 0.125),
-    thesis=(4, 15, 30, 60),
+    thesis=(4, 15, 60),
     peer_sub_steps=(1, 2, 8, 16, 32),
 )
 FLIGHT_SCALES = (4, 2, 1, 0.5, 0.25, 0.125, 0.0625, 0.03125)

@@ -29,6 +29,7 @@ struct alignas(64) ContactBlock {
   S between_along[kLanes<S>], between_lever[kLanes<S>];  // m, from a's centre of mass to b's, like an anchor
   S inv_mass_a[kLanes<S>], inv_inertia_a[kLanes<S>], inv_mass_b[kLanes<S>], inv_inertia_b[kLanes<S>];
   S friction[kLanes<S>];
+  S round_a[kLanes<S>], round_b[kLanes<S>];  // m, radii of the shapes: what is round looks the same when it has turned
   S share_a[kLanes<S>];                      // how much of the drift of the two centres is a's, see contact_kernels.cpp
   S drift2_max[kLanes<S>];                   // m²: squared drift up to which the arms follow it
   S coupling[kLanes<S>];                     // 1/kg: how an impulse at one point moves the other

@@ -47,9 +47,9 @@ struct Lane {
 template <class S>
 void clear_lane(ContactBlock<S>& block, ContactBlockRest<S>& rest, std::uint32_t lane) {
   // Unused lanes compute on zeros and a mass of one, and are not written back.
-  for (S* array :
-       {block.nx, block.ny, block.between_along, block.between_lever, block.inv_mass_a, block.inv_inertia_a,
-        block.inv_mass_b, block.inv_inertia_b, block.friction, block.share_a, block.drift2_max, block.coupling})
+  for (S* array : {block.nx, block.ny, block.between_along, block.between_lever, block.inv_mass_a, block.inv_inertia_a,
+                   block.inv_mass_b, block.inv_inertia_b, block.friction, block.round_a, block.round_b, block.share_a,
+                   block.drift2_max, block.coupling})
     array[lane] = S(0);
   block.inv_mass_a[lane] = S(1);
   block.a[lane] = block.b[lane] = 0;
@@ -111,6 +111,8 @@ void write_contact(const WorldData<S>& world, std::uint32_t slot, ContactBlock<S
   block.inv_inertia_b[lane] = b.inv_inertia;
   block.share_a[lane] = b.inv_mass / (a.inv_mass + b.inv_mass);
   block.friction[lane] = c.friction;
+  block.round_a[lane] = world.convexes[c.shape_a].radius;
+  block.round_b[lane] = world.convexes[c.shape_b].radius;
   rest.restitution[lane] = c.restitution;
   rest.shape_a[lane] = c.shape_a;
   rest.shape_b[lane] = c.shape_b;
@@ -170,6 +172,8 @@ void move_lane(const ContactBlock<S>& from, const ContactBlockRest<S>& from_rest
   copy(from.inv_mass_b, to.inv_mass_b);
   copy(from.inv_inertia_b, to.inv_inertia_b);
   copy(from.friction, to.friction);
+  copy(from.round_a, to.round_a);
+  copy(from.round_b, to.round_b);
   copy(from.share_a, to.share_a);
   copy(from.drift2_max, to.drift2_max);
   copy(from.coupling, to.coupling);

@@ -33,7 +33,7 @@ TEST_P(ContactCountsTest, AgreeWithPointsAndEventsWhileAHeapFallsRestsAndIsResto
   }
   std::set<std::pair<BodyId, BodyId>> touching;
   double deepest_ever = 0;
-  for (int step = 0; step < 400; ++step) {
+  for (int step = 0; step < 800; ++step) {
     if (step == 300) {
       ASSERT_TRUE(world->apply_impulse_to_center(last, {0, -3}));
     }

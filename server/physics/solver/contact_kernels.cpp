@@ -272,10 +272,13 @@ HWY_INLINE void solve_friction(Lanes<S>& k, const Arms<S>& r, PointLanes<S>& p, 
 template <class S>
 HWY_INLINE Vector<S> gap_of(const Lanes<S>& k, const PointLanes<S>& p, const Arms<S>& r) {
   const auto one = set(S(1));
-  // Where the anchors are now: material points, turned with their bodies.
-  const auto b_along = hn::Sub(r.along, k.between_along), b_lever = hn::Sub(r.lever, k.between_lever);
+  // Where the anchors are now: of sharp shapes material points, turned with their bodies; of round ones the place on
+  // the outline that looks along the normal, so that it is the centre of the rounding which has turned.
+  const auto a_along = hn::Sub(r.along, load(k.block.round_a + k.lane));
+  const auto b_along = hn::Add(hn::Sub(r.along, k.between_along), load(k.block.round_b + k.lane));
+  const auto b_lever = hn::Sub(r.lever, k.between_lever);
   const auto turned_b = hn::Add(hn::Mul(hn::Sub(k.b.c, one), b_along), hn::Mul(k.b.s, b_lever));
-  const auto turned_a = hn::Add(hn::Mul(hn::Sub(k.a.c, one), r.along), hn::Mul(k.a.s, r.lever));
+  const auto turned_a = hn::Add(hn::Mul(hn::Sub(k.a.c, one), a_along), hn::Mul(k.a.s, r.lever));
   return hn::Add(load(p.separation + k.lane), hn::Add(k.drift_along, hn::Sub(turned_b, turned_a)));
 }
 
