@@ -181,6 +181,7 @@ std::uint32_t take_shape_slot(WorldData<S>& world) {
   }
   world.shapes.emplace_back();
   world.convexes.emplace_back();
+  world.outlines.emplace_back();
   return static_cast<std::uint32_t>(world.shapes.size() - 1);
 }
 
@@ -192,6 +193,7 @@ void create_shape(WorldData<S>& world, std::uint32_t body_slot, const Part& part
   shape = Shape<S>{};
   convex = Convex<S>{};
   shape.kind = static_cast<std::uint32_t>(set_outline(convex, shape, part));
+  world.outlines[proxy] = outline_of(convex);
   Body<S>& body = world.bodies[body_slot];
   shape.body = body_slot;
   shape.next = body.first_shape;

@@ -57,9 +57,9 @@ void collide_side_by_side(const WorldData<S>& world, PairKind kind, const std::u
   if (kind == PairKind::kBoxes) {
     box_kernels<S>().collide(world.places.data(), a, b, out);
   } else if (kind == PairKind::kRounded) {
-    rounded_kernels<S>().collide(world.places.data(), world.convexes.data(), a, b, out);
+    rounded_kernels<S>().collide(world.places.data(), world.outlines.data(), a, b, out);
   } else {
-    polygon_kernels<S>().collide(world.places.data(), world.convexes.data(), a, b, out);
+    polygon_kernels<S>().collide(world.places.data(), world.outlines.data(), a, b, out);
   }
 }
 

@@ -16,6 +16,7 @@
 #include "physics/joint.h"
 #include "physics/model.h"
 #include "physics/narrow_phase/box_kernels.h"
+#include "physics/narrow_phase/outline.h"
 #include "physics/pair_set.h"
 #include "physics/places.h"
 #include "physics/shape.h"
@@ -94,8 +95,9 @@ struct WorldData {
   Needs needs;
   Model model;
   std::unique_ptr<BroadPhase<S>> broad_phase;
-  ContactSet<S> touching;        // the lanes of contacts with an awake body that touch
-  std::vector<Place<S>> places;  // by shape slot: as of the start of the step, or of falling asleep
+  ContactSet<S> touching;                // the lanes of contacts with an awake body that touch
+  std::vector<Place<S>> places;          // by shape slot: as of the start of the step, or of falling asleep
+  std::vector<OutlineRows<S>> outlines;  // by shape slot: of the convexes, for the kernels
   PairSet pair_set;
   std::uint32_t touching_count = 0;        // of contacts that have begun and not ended
   mutable std::optional<S> resting_depth;  // m ≤ 0, the least separation of a contact that sleeps; none: not known

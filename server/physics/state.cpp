@@ -219,6 +219,8 @@ void rebuild(WorldData<S>& world, const std::vector<std::uint32_t>& lanes) {
   for (std::uint32_t slot = 0; slot < world.bodies.size(); ++slot)
     if (world.bodies[slot].alive()) count_needs(world, slot, +1);
   for (const Joint<S>& j : world.joints) world.needs.joints += j.alive();
+  world.outlines.clear();
+  for (const Convex<S>& convex : world.convexes) world.outlines.push_back(outline_of(convex));
   world.places.clear();
   for (std::uint32_t slot = 0; slot < world.bodies.size(); ++slot) refresh_places(world, slot);
   rebuild_lanes(world, lanes);

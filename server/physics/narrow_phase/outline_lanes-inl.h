@@ -7,7 +7,7 @@
 #define URTO_PHYSICS_NARROW_PHASE_OUTLINE_LANES_INL_H_
 #endif
 
-#include "physics/geometry/convex.h"
+#include "physics/narrow_phase/outline.h"
 #include "physics/narrow_phase/place_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -34,28 +34,16 @@ struct Outlines {
   Vector<S> count;
   int most;
 
-  HWY_INLINE Outlines(const Convex<S>* convexes, const std::uint32_t* proxies, Vector<S> counts, int most_vertices)
+  HWY_INLINE Outlines(const OutlineRows<S>* outlines, const std::uint32_t* proxies, Vector<S> counts, int most_vertices)
       : count(counts), most(most_vertices) {
-    const auto c = load_rows<S>([&](std::size_t i) { return &convexes[proxies[i]].centroid.x(); });
-    const Pair<S> centroid{c.c0, c.c1};
     int k = 0;
     do {
-      const auto v = load_rows<S>([&](std::size_t i) { return &convexes[proxies[i]].vertices[k].x(); });
-      const auto n = load_rows<S>([&](std::size_t i) { return &convexes[proxies[i]].normals[k].x(); });
-      vertices[k] = minus<S>({v.c0, v.c1}, centroid);
-      normals[k] = {n.c0, n.c1};
-      vertices[k + 1] = minus<S>({v.c2, v.c3}, centroid);
-      normals[k + 1] = {n.c2, n.c3};
-      k += 2;
-    } while (k < most);
-    for (k = 1; k < most; ++k) {
-      const auto there = has(k);
-      vertices[k] = choose<S>(there, vertices[k], vertices[0]);
-      normals[k] = choose<S>(there, normals[k], normals[0]);
-    }
+      const auto row = load_rows<S>([&](std::size_t i) { return outlines[proxies[i]].rows[k]; });
+      vertices[k] = {row.c0, row.c1};
+      normals[k] = {row.c2, row.c3};
+    } while (++k < most);
     vertices[most] = vertices[0];
   }
-  HWY_INLINE Mask<S> has(int k) const { return hn::Gt(count, set(S(k))); }
 
   HWY_INLINE void place(Pair<S> q, Pair<S> center) {
     int k = 0;
@@ -80,7 +68,7 @@ struct BestFace {
     index = hn::Zero(Tag<S>());
     for (int i = 1; i < a.most; ++i) {
       const auto s = separation_from(a, b, i);
-      const auto better = hn::And(a.has(i), hn::Gt(s, separation));
+      const auto better = hn::Gt(s, separation);
       normal = choose<S>(better, a.normals[i], normal);
       start = choose<S>(better, a.vertices[i], start);
       end = choose<S>(better, a.vertices[i + 1], end);
@@ -117,7 +105,7 @@ struct IncidentEdge {
     for (int k = 1; k < most; ++k) {
       const Pair<S> normal = choose<S>(of_a, a.normals[k < a.most ? k : 0], b.normals[k < b.most ? k : 0]);
       const auto d = dot<S>(normal, direction);
-      const auto less = hn::And(hn::Gt(count, set(S(k))), hn::Lt(d, least));
+      const auto less = hn::Lt(d, least);
       least = hn::IfThenElse(less, d, least);
       p = choose<S>(less, pick(k), p);
       q = choose<S>(less, pick(k + 1), q);

@@ -20,7 +20,7 @@ namespace HWY_NAMESPACE {
 namespace {
 
 template <class S>
-HWY_INLINE void collide_vector(const Place<S>* places, const Convex<S>* convexes, const std::uint32_t* proxies_a,
+HWY_INLINE void collide_vector(const Place<S>* places, const OutlineRows<S>* outlines, const std::uint32_t* proxies_a,
                                const std::uint32_t* proxies_b, std::size_t lane, ManifoldLanes<S>& out) {
   const auto zero = hn::Zero(Tag<S>()), one = set(S(1)), half_of = set(S(0.5));
   store(zero, out.count + lane);
@@ -28,8 +28,8 @@ HWY_INLINE void collide_vector(const Place<S>* places, const Convex<S>* convexes
   const auto reach = reach_of(a, b);
   const Pair<S> between = minus<S>(b.center, a.center);
   // Everything in a's axes, from a's centroid.
-  const Outlines<S> outline_a(convexes, proxies_a + lane, a.vertices, most_of<S>(a.vertices, 3));
-  Outlines<S> outline_b(convexes, proxies_b + lane, b.vertices, most_of<S>(b.vertices, 3));
+  const Outlines<S> outline_a(outlines, proxies_a + lane, a.vertices, most_of<S>(a.vertices, 3));
+  Outlines<S> outline_b(outlines, proxies_b + lane, b.vertices, most_of<S>(b.vertices, 3));
   outline_b.place(rotated_back<S>(a.axis, b.axis), rotated_back<S>(a.axis, between));
   const BestFace<S> fa(outline_a, outline_b), fb(outline_b, outline_a);
   const auto near = hn::And(hn::Le(fa.separation, reach), hn::Le(fb.separation, reach));
@@ -91,11 +91,11 @@ HWY_INLINE void collide_vector(const Place<S>* places, const Convex<S>* convexes
 }
 
 template <class S>
-void collide_polygons(const Place<S>* places, const Convex<S>* convexes, const std::uint32_t* a, const std::uint32_t* b,
-                      ManifoldLanes<S>& out) {
+void collide_polygons(const Place<S>* places, const OutlineRows<S>* outlines, const std::uint32_t* a,
+                      const std::uint32_t* b, ManifoldLanes<S>& out) {
   const std::size_t width = hn::Lanes(Tag<S>());
   for (std::size_t lane = 0; lane < static_cast<std::size_t>(kLanes<S>); lane += width)
-    collide_vector(places, convexes, a, b, lane, out);
+    collide_vector(places, outlines, a, b, lane, out);
 }
 
 template <class S>

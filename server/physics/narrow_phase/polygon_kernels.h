@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-#include "physics/geometry/convex.h"
 #include "physics/narrow_phase/manifold_lanes.h"
+#include "physics/narrow_phase/outline.h"
 #include "physics/places.h"
 
 namespace urto {
@@ -13,8 +13,8 @@ namespace urto {
 template <class S>
 struct PolygonKernels {
   // Of the pairs (a[i], b[i]) of proxies, all lanes.
-  void (*collide)(const Place<S>* places, const Convex<S>* convexes, const std::uint32_t* a, const std::uint32_t* b,
-                  ManifoldLanes<S>& out);
+  void (*collide)(const Place<S>* places, const OutlineRows<S>* outlines, const std::uint32_t* a,
+                  const std::uint32_t* b, ManifoldLanes<S>& out);
 };
 
 template <class S>

@@ -42,11 +42,11 @@ struct RoundedPair {
   Vector<S> radius_a, radius_b, radii;
   Mask<S> two_discs;
 
-  HWY_INLINE RoundedPair(const PlaceLanes<S>& pa, const PlaceLanes<S>& pb, const Convex<S>* convexes,
+  HWY_INLINE RoundedPair(const PlaceLanes<S>& pa, const PlaceLanes<S>& pb, const OutlineRows<S>* outlines,
                          const std::uint32_t* proxies_a, const std::uint32_t* proxies_b, Vector<S> count_a,
                          Vector<S> count_b)
-      : a(convexes, proxies_a, count_a, most_of<S>(count_a, 1)),
-        b(convexes, proxies_b, count_b, most_of<S>(count_b, 1)) {
+      : a(outlines, proxies_a, count_a, most_of<S>(count_a, 1)),
+        b(outlines, proxies_b, count_b, most_of<S>(count_b, 1)) {
     const auto zero = hn::Zero(Tag<S>());
     radius_a = hn::IfThenElseZero(hn::Lt(pa.vertices, zero), pa.half.x);
     radius_b = hn::IfThenElseZero(hn::Lt(pb.vertices, zero), pb.half.x);
@@ -175,14 +175,14 @@ HWY_INLINE Verdict<S> judge(const RoundedPair<S>& pair, const Clip<S>& clip, con
 }
 
 template <class S>
-HWY_INLINE void collide_vector(const Place<S>* places, const Convex<S>* convexes, const std::uint32_t* proxies_a,
+HWY_INLINE void collide_vector(const Place<S>* places, const OutlineRows<S>* outlines, const std::uint32_t* proxies_a,
                                const std::uint32_t* proxies_b, std::size_t lane, ManifoldLanes<S>& out) {
   const auto zero = hn::Zero(Tag<S>()), one = set(S(1)), half_of = set(S(0.5));
   store(zero, out.count + lane);
   const PlaceLanes<S> a(places, proxies_a + lane), b(places, proxies_b + lane);
   const auto reach = reach_of(a, b);
   const auto count_a = hn::Abs(a.vertices), count_b = hn::Abs(b.vertices);
-  const RoundedPair<S> pair(a, b, convexes, proxies_a + lane, proxies_b + lane, count_a, count_b);
+  const RoundedPair<S> pair(a, b, outlines, proxies_a + lane, proxies_b + lane, count_a, count_b);
   BestFace<S> fa(pair.a, pair.b), fb(pair.b, pair.a);
   fa.separation = hn::IfThenElse(hn::Gt(count_a, one), fa.separation, set(S(kNoFace)));
   fb.separation = hn::IfThenElse(hn::Gt(count_b, one), fb.separation, set(S(kNoFace)));
@@ -260,11 +260,11 @@ HWY_INLINE void collide_vector(const Place<S>* places, const Convex<S>* convexes
 }
 
 template <class S>
-void collide_rounded(const Place<S>* places, const Convex<S>* convexes, const std::uint32_t* a, const std::uint32_t* b,
-                     ManifoldLanes<S>& out) {
+void collide_rounded(const Place<S>* places, const OutlineRows<S>* outlines, const std::uint32_t* a,
+                     const std::uint32_t* b, ManifoldLanes<S>& out) {
   const std::size_t width = hn::Lanes(Tag<S>());
   for (std::size_t lane = 0; lane < static_cast<std::size_t>(kLanes<S>); lane += width)
-    collide_vector(places, convexes, a, b, lane, out);
+    collide_vector(places, outlines, a, b, lane, out);
 }
 
 template <class S>

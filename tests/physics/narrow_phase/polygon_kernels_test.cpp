@@ -44,16 +44,18 @@ void compare_random_polygons(double tolerance) {
     std::vector<Convex<S>> convexes;
     std::vector<Transform<S>> poses;
     std::vector<Place<S>> places;
+    std::vector<OutlineRows<S>> outlines;
     std::uint32_t a[kLanes<S>], b[kLanes<S>];
     for (std::uint32_t i = 0; i < 2 * static_cast<std::uint32_t>(kLanes<S>); ++i) {
       const auto count = static_cast<std::uint32_t>(std::uniform_int_distribution<int>(3, 8)(random));
       convexes.push_back(cast_to<S>(random_polygon(random, count, 1)));
       poses.push_back(cast_pose<S>(pose_of(uniform(-1, 1), uniform(-1, 1), uniform(-3, 3))));
+      outlines.push_back(outline_of(convexes.back()));
       places.push_back(place_of(convexes.back(), poses.back(), reach));
       (i % 2 == 0 ? a : b)[i / 2] = i;
     }
     ManifoldLanes<S> lanes{};
-    polygon_kernels<S>().collide(places.data(), convexes.data(), a, b, lanes);
+    polygon_kernels<S>().collide(places.data(), outlines.data(), a, b, lanes);
     for (int lane = 0; lane < kLanes<S>; ++lane) {
       const Transform<S> b_in_a = poses[a[lane]].inverse_times(poses[b[lane]]);
       const Convex<S>&ca = convexes[a[lane]], cb = placed(convexes[b[lane]], b_in_a);

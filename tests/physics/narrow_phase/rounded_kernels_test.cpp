@@ -37,6 +37,7 @@ struct Pairs {
   std::vector<Convex<S>> convexes;
   std::vector<Transform<S>> poses;
   std::vector<Place<S>> places;
+  std::vector<OutlineRows<S>> outlines;
   std::uint32_t a[kLanes<S>], b[kLanes<S>];
 
   void set(int lane, const Convex<S>& shape_a, const Transform<S>& pose_a, const Convex<S>& shape_b,
@@ -46,7 +47,7 @@ struct Pairs {
   }
   ManifoldLanes<S> collide() const {
     ManifoldLanes<S> lanes{};
-    rounded_kernels<S>().collide(places.data(), convexes.data(), a, b, lanes);
+    rounded_kernels<S>().collide(places.data(), outlines.data(), a, b, lanes);
     return lanes;
   }
   LocalManifold<S> general(int lane, S reach) const {
@@ -58,6 +59,7 @@ struct Pairs {
   std::uint32_t add(const Convex<S>& shape, const Transform<S>& pose, S reach) {
     convexes.push_back(shape);
     poses.push_back(pose);
+    outlines.push_back(outline_of(shape));
     places.push_back(place_of(shape, pose, reach));
     return static_cast<std::uint32_t>(convexes.size() - 1);
   }
