@@ -34,7 +34,7 @@ class Effort:
 
 
 QUICK = Effort(runs=3, budget_s=0.1, timeout_s=10, steps=160)
-FULL = Effort(runs=20, budget_s=0.1, timeout_s=600, steps=240)
+FULL = Effort(runs=20, budget_s=0.1, timeout_s=300, steps=240)
 
 
 def build(jobs: int) -> dict[str, Path]:
