@@ -199,7 +199,10 @@ class ContinuousCollision {
 
   // What touches does not close in where it touches, or the contact would have seen to it; but it may swing around that
   // place, and out behind the other if that is no thicker than the swing.
-  bool swings_through(const Body<S>& a, const Body<S>& b, const Contact<S>& c) const {
+  bool may_swing_through(const Contact<S>& c) const {
+    // A chain has no inside to sink into.
+    if (world_.convexes[c.shape_a].chain_segment() || world_.convexes[c.shape_b].chain_segment()) return false;
+    const Body<S>&a = world_.bodies[c.body_a], &b = world_.bodies[c.body_b];
     const S turn = absolute(courses_.of(c.body_b).da - courses_.of(c.body_a).da);
     return turn * min_of(a.extent_max, b.extent_max) > S(kFastFraction) * (a.extent_min + b.extent_min);
   }
@@ -212,16 +215,16 @@ class ContinuousCollision {
     const Convex<S>&a = world_.convexes[c.shape_a], &b = world_.convexes[c.shape_b];
     const Sweep<S> sa = courses_.sweep_from(c.body_a, now), sb = courses_.sweep_from(c.body_b, now);
     const S reach = min_of(world_.shapes[c.shape_a].reach, world_.shapes[c.shape_b].reach);
+    // A contact that has a lane was solved in this step: what it lets come nearer may.
+    if (c.has_lane() && !may_swing_through(c)) return false;
     const S apart = gjk_distance(a, b, sa.pose(S(0)).inverse_times(sb.pose(S(0)))).separation;
     S target, tolerance;
-    // A contact that has a lane was solved in this step: what it lets come nearer may.
     if (!c.has_lane() && apart > S(kImpactToleranceFraction) * reach) {
       if (apart > approach * (S(1) - now) + reach) return false;
       target = min_of(S(kImpactTargetFraction) * reach, S(0.5) * apart);
       tolerance = S(0.25) * target;
     } else {
-      // A chain has no inside to sink into.
-      if (a.chain_segment() || b.chain_segment() || !swings_through(body_a, body_b, c)) return false;
+      if (!may_swing_through(c)) return false;
       target = min_of(apart, S(0)) - S(kImpactTargetFraction) * reach;
       tolerance = S(0.25 * kImpactTargetFraction) * reach;
     }
