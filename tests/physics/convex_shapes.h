@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "physics/geometry/convex.h"
+#include "physics/places.h"
 
 namespace urto::testing_shapes {
 
@@ -107,6 +108,24 @@ inline Convex<double> random_shape(std::mt19937_64& random, double size) {
   const auto count = static_cast<std::uint32_t>(std::uniform_int_distribution<int>(1, 8)(random));
   const double radius = count < 3 || unit(random) < 0.5 ? size * unit(random) : 0;
   return random_polygon(random, count, size, radius);
+}
+
+// The place of an outline whose body has its centre of mass at the pose's origin.
+template <class S>
+Place<S> place_of(const Convex<S>& convex, const Transform<S>& pose, S reach) {
+  Place<S> place;
+  const Vec<S> center = pose.apply(convex.centroid);
+  place.x = center.x();
+  place.y = center.y();
+  place.offset_x = center.x() - pose.p.x();
+  place.offset_y = center.y() - pose.p.y();
+  place.c = pose.q.c;
+  place.s = pose.q.s;
+  place.reach = reach;
+  place.half_width = convex.radius;
+  const bool sharp = convex.count > 2 && convex.radius == S(0);
+  place.vertices = sharp ? S(convex.count) : -S(convex.count);
+  return place;
 }
 
 }  // namespace urto::testing_shapes

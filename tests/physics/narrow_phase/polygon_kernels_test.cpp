@@ -13,21 +13,6 @@ namespace {
 
 using namespace testing_shapes;
 
-template <class S>
-Place<S> place_of(const Convex<S>& convex, const Transform<S>& pose, S reach) {
-  Place<S> place;
-  const Vec<S> center = pose.apply(convex.centroid);
-  place.x = center.x();
-  place.y = center.y();
-  place.offset_x = center.x() - pose.p.x();  // the body's centre of mass is its origin here
-  place.offset_y = center.y() - pose.p.y();
-  place.c = pose.q.c;
-  place.s = pose.q.s;
-  place.reach = reach;
-  place.vertices = S(convex.count);
-  return place;
-}
-
 // Every lane has a pair of its own, triangles to octagons side by side: the answers of the general routine, but where
 // the kernel asks for it. Pairs whose answer hangs on rounding (two faces that separate equally well) are left out.
 template <class S>

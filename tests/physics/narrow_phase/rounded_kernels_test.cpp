@@ -14,23 +14,6 @@ namespace {
 
 using namespace testing_shapes;
 
-template <class S>
-Place<S> place_of(const Convex<S>& convex, const Transform<S>& pose, S reach) {
-  Place<S> place;
-  const Vec<S> center = pose.apply(convex.centroid);
-  place.x = center.x();
-  place.y = center.y();
-  place.offset_x = center.x() - pose.p.x();  // the body's centre of mass is its origin here
-  place.offset_y = center.y() - pose.p.y();
-  place.c = pose.q.c;
-  place.s = pose.q.s;
-  place.reach = reach;
-  place.half_width = convex.radius;
-  const bool sharp = convex.count > 2 && convex.radius == S(0);
-  place.vertices = sharp ? S(convex.count) : -S(convex.count);
-  return place;
-}
-
 // The pairs of a block, one in each lane.
 template <class S>
 struct Pairs {
