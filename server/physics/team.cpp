@@ -7,9 +7,10 @@ namespace {
 
 // About as long as the gaps between the loops of a step: after that a member sleeps until it is called.
 constexpr int kSpins = 2000;
-// The caller's wait for parts that others are in the middle of: some times as long as a part takes. What lasts longer
-// is a member without a processor, and one that the caller does not occupy may be its next.
-constexpr int kSpinsOfCaller = 1000;
+// The caller's wait for parts that others are in the middle of: some tenths of a millisecond, longer than a part of the
+// longest loops takes. What lasts longer is a member without a processor, and one that the caller does not occupy may
+// be its next.
+constexpr int kSpinsOfCaller = 20000;
 // Loops that the caller does alone after a wait that long; twice as many each time, less one for each loop without.
 // The most are about a tenth of a second: then a machine with other work loses some per cent to what is tried in vain.
 constexpr std::uint32_t kCautionMin = 32, kCautionMax = 16384;
