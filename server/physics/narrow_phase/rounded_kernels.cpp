@@ -96,6 +96,20 @@ struct Clip {
   }
 };
 
+// The corner that lies furthest along a direction; of several the first.
+template <class S>
+HWY_INLINE Pair<S> furthest(const Outlines<S>& outline, Pair<S> direction) {
+  Pair<S> best = outline.vertices[0];
+  auto top = dot<S>(direction, best);
+  for (int k = 1; k < outline.most; ++k) {
+    const auto along = dot<S>(direction, outline.vertices[k]);
+    const auto further = hn::Gt(along, top);
+    top = hn::IfThenElse(further, along, top);
+    best = choose<S>(further, outline.vertices[k], best);
+  }
+  return best;
+}
+
 // The way from a corner of a to one of b, and whether no other corner is nearer along it: the test of GJK's last round.
 template <class S>
 struct Corners {
@@ -117,22 +131,8 @@ struct Corners {
     way = minus<S>(on_b, on_a);
     const auto distance2 = dot<S>(way, way);
     distance = hn::Sqrt(distance2);
-    furthest_a = a.vertices[0];
-    auto top = dot<S>(way, furthest_a);
-    for (int k = 1; k < a.most; ++k) {
-      const auto along = dot<S>(way, a.vertices[k]);
-      const auto further = hn::Gt(along, top);
-      top = hn::IfThenElse(further, along, top);
-      furthest_a = choose<S>(further, a.vertices[k], furthest_a);
-    }
-    furthest_b = b.vertices[0];
-    auto bottom = dot<S>(way, furthest_b);
-    for (int k = 1; k < b.most; ++k) {
-      const auto along = dot<S>(way, b.vertices[k]);
-      const auto further = hn::Lt(along, bottom);
-      bottom = hn::IfThenElse(further, along, bottom);
-      furthest_b = choose<S>(further, b.vertices[k], furthest_b);
-    }
+    furthest_a = furthest<S>(a, way);
+    furthest_b = furthest<S>(b, {hn::Neg(way.x), hn::Neg(way.y)});
     const auto size = larger(largest_part<S>(on_a), largest_part<S>(on_b));
     const auto slack = hn::Mul(set(S(kSlackRoundings) * std::numeric_limits<S>::epsilon()), size);
     const auto nearer_by = hn::Sub(distance2, dot<S>(way, minus<S>(furthest_b, furthest_a)));
