@@ -70,6 +70,13 @@ struct Scratch {
   std::vector<AdoptedImpulse<S>> adopted;
 };
 
+// What rounding left out of a body's velocity when it was last summed, and the velocity that it belongs to: another one
+// has nothing left over.
+struct SpeedRest {
+  double vx = 0, vy = 0;          // m/s
+  double rest_x = 0, rest_y = 0;  // m/s
+};
+
 template <class S>
 struct WorldData {
   WorldSettings settings;
@@ -85,6 +92,7 @@ struct WorldData {
   std::vector<std::uint32_t> free_contacts;
   std::vector<Joint<S>> joints;  // by slot
   std::vector<std::uint32_t> free_joints;
+  std::vector<SpeedRest> speed_rests;  // by body slot: of the precise solver alone
 
   std::vector<std::uint32_t> awake;          // body slots: awake and not static
   std::vector<ActiveContact> active;         // contacts with an awake body and no lane
@@ -136,6 +144,7 @@ struct WorldData {
     visit(1u, "joints", self.joints);
     visit(2u, "free_joints", self.free_joints);
     visit(3u, "active_joints", self.active_joints);
+    visit(5u, "speed_rests", self.speed_rests);
   }
 };
 

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include "physics/support/joints.h"
 #include "physics/world_of.h"
@@ -505,6 +506,7 @@ void expect_every_byte_hashed(World& world) {
   auto& data = dynamic_cast<WorldOf<S>&>(world).data();
   const std::uint64_t before = world.state_hash();
   WorldData<S>::for_each_optional_field(data, [&](std::uint32_t, const char* name, auto& field) {
+    if (std::string_view(name) == "speed_rests") return;  // of the precise solver, which has no joints
     ASSERT_FALSE(field.empty()) << name;
     auto* bytes = reinterpret_cast<unsigned char*>(field.data());
     for (std::size_t i = 0; i < sizeof field[0]; ++i) {

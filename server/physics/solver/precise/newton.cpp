@@ -4,6 +4,7 @@
 
 #include "physics/geometry/vector.h"
 #include "physics/solver/precise/interior_point.h"
+#include "physics/solver/precise/sweeps.h"
 #include "physics/solver/precise/tolerances.h"
 
 namespace urto {
@@ -243,6 +244,27 @@ ProblemAnswer solve_by_newton(ContactProblem& problem, ProblemWorkspace& work, i
   return best;
 }
 
+namespace {
+
+// The best answer so far and its impulses.
+struct Best {
+  ProblemAnswer answer;
+  Impulses impulses;
+
+  Best(const ContactProblem& problem, const ProblemAnswer& first) : answer(first) { impulses.take(problem); }
+  void compare(const ContactProblem& problem, const ProblemAnswer& other) {
+    const std::uint32_t factorisations = answer.factorisations + other.factorisations;
+    if (other.residual <= answer.residual) {
+      answer = other;
+      impulses.take(problem);
+    }
+    answer.factorisations = factorisations;
+  }
+  bool good_enough() const { return answer.residual <= kGoodEnough * answer.tolerance; }
+};
+
+}  // namespace
+
 ProblemAnswer solve(ContactProblem& problem, ProblemWorkspace& work) {
   work.ready = false;
   prepare(problem);
@@ -253,18 +275,19 @@ ProblemAnswer solve(ContactProblem& problem, ProblemWorkspace& work) {
   if (answer.solved()) return answer;
   Impulses guess;
   guess.take(problem);
-  answer = solve_by_newton(problem, work, kNewtonRounds);
-  if (answer.residual <= kGoodEnough * answer.tolerance) return answer;
-  Impulses best;
-  best.take(problem);
+  Best best(problem, solve_by_newton(problem, work, kNewtonRounds));
+  if (best.good_enough()) return best.answer;
   solve_by_interior_point(problem, work);
-  ProblemAnswer second = solve_by_newton(problem, work, kPolishRounds);
-  second.factorisations += answer.factorisations + kInteriorRounds;
-  if (second.residual <= answer.residual) return second;
-  best.give(problem);
+  best.compare(problem, solve_by_newton(problem, work, kPolishRounds));
+  best.answer.factorisations += kInteriorRounds;
+  if (!best.good_enough() && !(best.answer.residual <= kRestSpeed)) {
+    guess.give(problem);
+    best.compare(problem, solve_by_sweeps(problem, kSweepsMax));
+    best.compare(problem, solve_by_newton(problem, work, kPolishRounds));
+  }
+  best.impulses.give(problem);
   apply_impulses(problem);
-  answer.factorisations = second.factorisations;
-  return answer;
+  return best.answer;
 }
 
 }  // namespace urto

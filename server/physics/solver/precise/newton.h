@@ -18,7 +18,8 @@ struct ProblemWorkspace {
 };
 
 // Solves the problem: first by its guess, then by Newton's method on the states of the points, and if that finds no
-// end by an interior-point method whose end is polished by Newton's method. The best iterate is kept.
+// end by an interior-point method whose end is polished by Newton's method. Where both fail by more than what counts as
+// rest, sweeps over the points take over, polished likewise. The best iterate is kept.
 ProblemAnswer solve(ContactProblem& problem, ProblemWorkspace& work);
 
 // Newton's method alone (semi-smooth: Alart and Curnier 1991). Each round names the state of every point and solves the

@@ -5,6 +5,14 @@
 
 namespace urto {
 
+// sum += term; what rounding takes away is kept and comes with the next term (Kahan 1965, and Neumaier's order of the
+// two), or a velocity that gains the same in each step would drift by the same rounding error in each.
+inline void add_keeping_rest(double& sum, double& rest, double term) {
+  const double gain = term + rest, next = sum + gain;
+  rest = absolute(sum) >= absolute(gain) ? (sum - next) + gain : (gain - next) + sum;
+  sum = next;
+}
+
 // The way of a body within a step from a moment on, until something happens to it: a parabola, and a turn that speeds
 // up evenly. Places are relative to where the body was when the step began, so that distance from the origin costs no
 // digits. The velocity has an acceleration of its own: through force fields, that of Verlet's velocity form.
@@ -12,6 +20,7 @@ struct Path {
   double since = 0;                           // s into the step
   double dx = 0, dy = 0, da = 0;              // m, m, rad since the step began
   double vx = 0, vy = 0, w = 0;               // m/s, rad/s
+  double rest_x = 0, rest_y = 0;              // m/s: what rounding left out of the velocity
   double ax = 0, ay = 0, aw = 0;              // m/s², rad/s²: of the place
   double gain_x = 0, gain_y = 0, gain_w = 0;  // m/s², rad/s²: of the velocity
 
@@ -24,8 +33,8 @@ struct Path {
     p.dx += s * (vx + 0.5 * s * ax);
     p.dy += s * (vy + 0.5 * s * ay);
     p.da += s * (w + 0.5 * s * aw);
-    p.vx += s * gain_x;
-    p.vy += s * gain_y;
+    add_keeping_rest(p.vx, p.rest_x, s * gain_x);
+    add_keeping_rest(p.vy, p.rest_y, s * gain_y);
     p.w += s * gain_w;
     return p;
   }

@@ -50,6 +50,11 @@ void PreciseStep::start_path(std::uint32_t slot, double now) {
   path.vx = m.vx;
   path.vy = m.vy;
   path.w = m.w;
+  if (slot < world_->speed_rests.size()) {
+    const SpeedRest& rest = world_->speed_rests[slot];
+    path.rest_x = rest.vx == m.vx ? rest.rest_x : 0.0;
+    path.rest_y = rest.vy == m.vy ? rest.rest_y : 0.0;
+  }
   thrust_->accelerate(world_->bodies[slot], path, h_);
 }
 
@@ -141,8 +146,10 @@ void PreciseStep::take(const Event& event) {
 void PreciseStep::finish() {
   for (std::uint32_t slot : world_->awake) paths_[slot] = paths_[slot].from(h_);
   for (const ActiveContact& active : world_->active) account(active.contact, h_);
+  world_->speed_rests.resize(world_->bodies.size());
   for (std::uint32_t slot : world_->awake) {
     const Path& end = paths_[slot];
+    world_->speed_rests[slot] = {end.vx, end.vy, end.rest_x, end.rest_y};
     Motion<double>& m = world_->motions[slot];
     m.vx = end.vx;
     m.vy = end.vy;

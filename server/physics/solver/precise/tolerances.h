@@ -25,6 +25,11 @@ inline constexpr int kPolishRounds = 24;
 inline constexpr int kInteriorRounds = 40;
 inline constexpr double kInteriorGap = 1e-11;  // of the first complementarity: near enough to name the states
 
+// Sweeps where the direct methods fail: of 367 such problems of a card house 83 were left with more than 1e-4 m/s,
+// 18 after 256 sweeps, 3 after 1024, none after 4096.
+inline constexpr int kSweepsMax = 1024;
+inline constexpr int kSweepsBetweenLooks = 32;
+
 // Touching ------------------------------------------------------------------------------------------------------
 
 // Surfaces nearer than this touch: they share forces. Far below what anybody sees, far above the rounding of

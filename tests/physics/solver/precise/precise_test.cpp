@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "physics/support/scenes.h"
+#include "physics/world_of.h"
 
 namespace urto {
 namespace {
@@ -52,17 +53,42 @@ TEST(Precise, NeedsDoublePrecision) {
 
 // x = v t, y = v t − g t²/2. What remains is rounding: 600 steps of a coordinate of 500 m.
 TEST(Precise, FlightIsAParabola) {
+  for (const Vec2& v : {Vec2(3, 20), Vec2(-1, 50), Vec2(7.3, 44.7), Vec2(0, -0.1)}) {
+    auto world = make_world(precise_settings());
+    BodyDef def = ball_body(0, 0);
+    def.velocity = v;
+    const BodyId id = add(*world, def);
+    for (int i = 1; i <= 600; ++i) {
+      world->step();
+      const double t = i * world->settings().time_step;
+      const Vec2 p = world->body(id)->position;
+      ASSERT_NEAR(p.x(), v.x() * t, 1e-12);
+      ASSERT_NEAR(p.y(), v.y() * t - 0.5 * kGravity * t * t, 1e-12);
+    }
+  }
+}
+
+// What rounding left out of a velocity is state, as the velocity is; one that was given has nothing left out.
+TEST(Precise, WhatVelocitiesLeaveOutIsState) {
   auto world = make_world(precise_settings());
   BodyDef def = ball_body(0, 0);
-  def.velocity = {3, 20};
+  def.velocity = {0, 50};
   const BodyId id = add(*world, def);
-  for (int i = 1; i <= 600; ++i) {
-    world->step();
-    const double t = i * world->settings().time_step;
-    const Vec2 p = world->body(id)->position;
-    ASSERT_NEAR(p.x(), 3 * t, 1e-12);
-    ASSERT_NEAR(p.y(), 20 * t - 0.5 * kGravity * t * t, 1e-12);
-  }
+  const auto rests = [](World& of) -> std::vector<SpeedRest>& {
+    return dynamic_cast<WorldOf<double>&>(of).data().speed_rests;
+  };
+  EXPECT_TRUE(rests(*world).empty());
+  step_for(*world, 1);
+  ASSERT_EQ(rests(*world).size(), 1u);
+  EXPECT_NE(rests(*world)[0].rest_y, 0.0);
+  auto copy = make_world(precise_settings());
+  ASSERT_TRUE(copy->restore(world->save()).has_value());
+  EXPECT_EQ(copy->state_hash(), world->state_hash());
+  rests(*copy)[0].rest_y = 0.0;
+  EXPECT_NE(copy->state_hash(), world->state_hash());
+  ASSERT_TRUE(world->set_velocity(id, {0, 32}, 0).has_value());
+  world->step();
+  EXPECT_EQ(world->body(id)->velocity.y(), 32 + world->settings().time_step * -kGravity);
 }
 
 // What lies on contact k of N weighs (N − k) m g.
@@ -243,6 +269,31 @@ TEST(Precise, PainleveRodStaysFinite) {
     step_for(*world, 5);
     EXPECT_LT(std::abs(world->body(id)->position.x()), 50);
     EXPECT_LT(world->energy().kinetic, 1e-9);
+  }
+}
+
+// The same while it slides: energy never grows but for the second-order error of a turn over a corner.
+TEST(Precise, PainleveRodGainsNoEnergy) {
+  for (double tangent : {1.2, 1.5, 2.0, 2.5, 3.0, 4.0}) {
+    for (double friction : {1.4, 1.5, 1.7, 3.0}) {
+      auto world = make_world(precise_settings());
+      add(*world, with_material(floor_body(2000), friction, 0));
+      const double angle = std::atan(tangent);
+      BodyDef def = with_material(box_body(0, std::sin(angle) + 0.01 * std::cos(angle), 2, 0.02), friction, 0);
+      def.angle = angle;
+      def.velocity = {-5, 0};
+      add(*world, def);
+      const auto energy = [&world] { return world->energy().kinetic + world->energy().potential; };
+      const double start = energy();
+      double least = start, worst = 0;
+      for (int i = 0; i < 300; ++i) {
+        world->step();
+        const double now = energy();
+        worst = std::max(worst, (now - least) / start);
+        least = std::min(least, now);
+      }
+      EXPECT_LT(worst, 1e-4) << "tan " << tangent << ", friction " << friction;
+    }
   }
 }
 
