@@ -40,11 +40,16 @@ struct Bodies {
     im = load(inv_mass);
     ii = load(inv_inertia);
   }
-  // Bodies that cannot move are left alone: other lanes may hold them too.
+  // Bodies that cannot move are left alone: other lanes may hold them too. In most vectors all can, or none.
   HWY_INLINE void store_to(Motion<S>* motions, const std::uint32_t* slots, std::uint32_t movable) const {
-    Motion<S> nowhere;
-    store_rows<S>({vx, vy, w, dx},
-                  [&](std::size_t i) { return (movable >> i) & 1u ? &motions[slots[i]].vx : &nowhere.vx; });
+    const std::uint32_t all = (1u << hn::Lanes(Tag<S>())) - 1;
+    if ((movable & all) == all) {
+      store_rows<S>({vx, vy, w, dx}, [&](std::size_t i) { return &motions[slots[i]].vx; });
+    } else if ((movable & all) != 0) {
+      Motion<S> nowhere;
+      store_rows<S>({vx, vy, w, dx},
+                    [&](std::size_t i) { return (movable >> i) & 1u ? &motions[slots[i]].vx : &nowhere.vx; });
+    }
   }
 };
 
@@ -131,27 +136,42 @@ HWY_INLINE Vector<S> tangent_speed(const Lanes<S>& k, const Arms<S>& r) {
   return hn::Add(k.speed_across, hn::Sub(hn::Mul(k.b.w, r.tangent_b), hn::Mul(k.a.w, r.tangent_a)));
 }
 
+// What an impulse along one direction at one point does to the bodies: its arms, and how much an impulse of 1 turns.
 template <class S>
-HWY_INLINE void turn(Lanes<S>& k, Vector<S> impulse, Vector<S> arm_a, Vector<S> arm_b) {
-  k.a.w = hn::Sub(k.a.w, hn::Mul(k.a.ii, hn::Mul(arm_a, impulse)));
-  k.b.w = hn::Add(k.b.w, hn::Mul(k.b.ii, hn::Mul(arm_b, impulse)));
+struct Direction {
+  Vector<S> arm_a, arm_b;    // m
+  Vector<S> turn_a, turn_b;  // 1/(kg·m)
+
+  HWY_INLINE Direction(const Lanes<S>& k, Vector<S> of_a, Vector<S> of_b)
+      : arm_a(of_a), arm_b(of_b), turn_a(hn::Mul(k.a.ii, of_a)), turn_b(hn::Mul(k.b.ii, of_b)) {}
+};
+template <class S>
+HWY_INLINE Direction<S> normal_of(const Lanes<S>& k, const Arms<S>& r) {
+  return {k, r.normal_a, r.normal_b};
+}
+template <class S>
+HWY_INLINE Direction<S> tangent_of(const Lanes<S>& k, const Arms<S>& r) {
+  return {k, r.tangent_a, r.tangent_b};
 }
 
+// 1/kg: the speed that an impulse of 1 along one direction makes along the other by turning the bodies.
 template <class S>
-HWY_INLINE void push_along_normal(Lanes<S>& k, const Arms<S>& r, Vector<S> impulse) {
-  k.push_along = hn::Add(k.push_along, impulse);
-  turn(k, impulse, r.normal_a, r.normal_b);
-}
-template <class S>
-HWY_INLINE void push_along_tangent(Lanes<S>& k, const Arms<S>& r, Vector<S> impulse) {
-  k.push_across = hn::Add(k.push_across, impulse);
-  turn(k, impulse, r.tangent_a, r.tangent_b);
+HWY_INLINE Vector<S> coupling(const Direction<S>& p, const Direction<S>& q) {
+  return hn::Add(hn::Mul(p.turn_a, q.arm_a), hn::Mul(p.turn_b, q.arm_b));
 }
 
-// The linear part of what was pushed in the meantime.
+template <class V>
+struct TwoImpulses {
+  V first, second;
+};
+
+// Impulses at both points along parallel directions, on the bodies' spins and on what is pushed along those.
 template <class S>
-HWY_INLINE void take_up_speed(const Lanes<S>& k, Vector<S>& speed, Vector<S> impulse) {
-  speed = hn::Add(speed, hn::Mul(hn::Add(k.a.im, k.b.im), impulse));
+HWY_INLINE void push(Lanes<S>& k, const Direction<S>& p, const Direction<S>& q, const TwoImpulses<Vector<S>>& impulses,
+                     Vector<S>& pushed) {
+  pushed = hn::Add(pushed, hn::Add(impulses.first, impulses.second));
+  k.a.w = hn::Sub(k.a.w, hn::Add(hn::Mul(p.turn_a, impulses.first), hn::Mul(q.turn_a, impulses.second)));
+  k.b.w = hn::Add(k.b.w, hn::Add(hn::Mul(p.turn_b, impulses.first), hn::Mul(q.turn_b, impulses.second)));
 }
 
 // Taking over manifolds -------------------------------------------------------------------------------------------
@@ -247,25 +267,12 @@ void take(const Motion<S>* motions, const ManifoldLanes<S>& manifolds, ContactBl
 
 template <class S>
 HWY_INLINE void warm_start_lanes(Lanes<S>& k) {
-  for (PointLanes<S>& p : k.block.points) {
-    const Arms<S> r(k, p);
-    push_along_normal(k, r, load(p.normal_impulse + k.lane));
-    push_along_tangent(k, r, load(p.tangent_impulse + k.lane));
-  }
-}
-
-template <class S>
-HWY_INLINE void solve_friction(Lanes<S>& k, const Arms<S>& r, PointLanes<S>& p, Vector<S> friction,
-                               Vector<S> normal_impulse) {
-  const auto bound = hn::Mul(friction, normal_impulse), low = hn::Neg(bound);
-  const auto before = load(p.tangent_impulse + k.lane);
-  auto next = hn::Sub(before, hn::Mul(load(p.tangent_mass + k.lane), tangent_speed(k, r)));
-  next = smaller(next, bound);
-  next = larger(next, low);
-  store(next, p.tangent_impulse + k.lane);
-  const auto impulse = hn::Sub(next, before);
-  push_along_tangent(k, r, impulse);
-  take_up_speed(k, k.speed_across, impulse);
+  const PointLanes<S>&p = k.block.points[0], &q = k.block.points[1];
+  const Arms<S> rp(k, p), rq(k, q);
+  push<S>(k, normal_of(k, rp), normal_of(k, rq), {load(p.normal_impulse + k.lane), load(q.normal_impulse + k.lane)},
+          k.push_along);
+  push<S>(k, tangent_of(k, rp), tangent_of(k, rq), {load(p.tangent_impulse + k.lane), load(q.tangent_impulse + k.lane)},
+          k.push_across);
 }
 
 // m, of a point's surfaces now, negative if they overlap.
@@ -304,11 +311,6 @@ HWY_INLINE Demand<S> demand_of(const Lanes<S>& k, const PointLanes<S>& p, const 
   return {hn::IfThenElse(open, closing, pushing), hn::IfThenZeroElse(open, soft)};
 }
 
-template <class V>
-struct TwoImpulses {
-  V first, second;
-};
-
 // Both points of a manifold at once, so that neither side is favoured: the linear complementarity problem
 //   w = K λ − q ≥ 0,  λ ≥ 0,  w·λ = 0
 // by trying which points push (Catto, "Block solver", Box2D 2).
@@ -317,26 +319,18 @@ HWY_INLINE TwoImpulses<V> solve_two(V k11, V k12, V k22, V q1, V q2) {
   const auto zero = hn::Zero(Tag<S>());
   const auto k11_k22 = hn::Mul(k11, k22);
   const auto determinant = hn::Sub(k11_k22, hn::Mul(k12, k12));
+  const auto one_by = [](V v) HWY_ATTR { return hn::Div(set(S(1)), v); };
+  const auto one_by_determinant = one_by(determinant);
   const auto d1 = hn::Sub(hn::Mul(k22, q1), hn::Mul(k12, q2)), d2 = hn::Sub(hn::Mul(k11, q2), hn::Mul(k12, q1));
   const auto regular = hn::Gt(determinant, hn::Mul(set(S(kDeterminantMin)), k11_k22));
   const auto both = hn::And(regular, hn::And(hn::Ge(d1, zero), hn::Ge(d2, zero)));
   const auto first = hn::And(hn::Ge(q1, zero), hn::Ge(hn::Mul(k12, q1), hn::Mul(k11, q2)));
   const auto second = hn::And(hn::Ge(q2, zero), hn::Ge(hn::Mul(k12, q2), hn::Mul(k22, q1)));
-  const auto l1 = hn::Div(hn::IfThenElse(both, d1, q1), hn::IfThenElse(both, determinant, k11));
-  const auto l2 = hn::Div(hn::IfThenElse(both, d2, q2), hn::IfThenElse(both, determinant, k22));
   const auto only_second = hn::AndNot(hn::Or(both, first), second);
-  return {hn::IfThenElseZero(hn::Or(both, first), l1), hn::IfThenElseZero(hn::Or(both, only_second), l2)};
-}
-
-// Changes the normal impulses of both points.
-template <class S>
-HWY_INLINE void push_both(Lanes<S>& k, const Arms<S>& r1, const Arms<S>& r2, const TwoImpulses<Vector<S>>& before,
-                          const TwoImpulses<Vector<S>>& next) {
-  store(next.first, k.block.points[0].normal_impulse + k.lane);
-  store(next.second, k.block.points[1].normal_impulse + k.lane);
-  const auto d1 = hn::Sub(next.first, before.first), d2 = hn::Sub(next.second, before.second);
-  push_along_normal(k, r1, d1);
-  push_along_normal(k, r2, d2);
+  const auto alone_1 = hn::IfThenElseZero(first, hn::Mul(one_by(k11), q1));
+  const auto alone_2 = hn::IfThenElseZero(only_second, hn::Mul(one_by(k22), q2));
+  return {hn::IfThenElse(both, hn::Mul(one_by_determinant, d1), alone_1),
+          hn::IfThenElse(both, hn::Mul(one_by_determinant, d2), alone_2)};
 }
 
 template <class S>
@@ -363,9 +357,8 @@ struct NormalPoints {
 
 // λ of both points: (K + γ) λ = K λ₀ − v − bias where they push.
 template <class S, bool kUseBias>
-HWY_INLINE TwoImpulses<Vector<S>> solve_normals(Lanes<S>& k, const Arms<S>& r1, const Arms<S>& r2,
-                                                const PassSettings<S>& settings) {
-  const NormalPoints<S> n(k);
+HWY_INLINE TwoImpulses<Vector<S>> solve_normals(const Lanes<S>& k, const Arms<S>& r1, const Arms<S>& r2,
+                                                const NormalPoints<S>& n, const PassSettings<S>& settings) {
   const Demand<S> d1 = demand_of<S, kUseBias>(k, n.p1, r1, n.m1, settings);
   const Demand<S> d2 = demand_of<S, kUseBias>(k, n.p2, r2, n.m2, settings);
   const auto q1 = hn::Sub(n.wanted_1(normal_speed(k, r1)), d1.bias);
@@ -375,8 +368,48 @@ HWY_INLINE TwoImpulses<Vector<S>> solve_normals(Lanes<S>& k, const Arms<S>& r1, 
     k11 = hn::Add(k11, d1.compliance);
     k22 = hn::Add(k22, d2.compliance);
   }
-  const auto next = solve_two<S>(k11, n.coupling, k22, q1, q2);
-  push_both(k, r1, r2, n.before, next);
+  return solve_two<S>(k11, n.coupling, k22, q1, q2);
+}
+
+// λ of a point whose surfaces slide at `speed` over each other, within ±bound.
+template <class S>
+HWY_INLINE Vector<S> solve_friction(Vector<S> before, Vector<S> mass, Vector<S> speed, Vector<S> bound) {
+  return larger(smaller(hn::Sub(before, hn::Mul(mass, speed)), bound), hn::Neg(bound));
+}
+
+// Normal impulses, then friction: at one point, then at the other. Each sees what the ones before have done, which is
+// taken from how the directions are coupled and not from the bodies: that much shorter is the chain of operations that
+// have to wait for each other, and that chain, not their number, is what a pass costs.
+template <class S, bool kUseBias, class Bound>
+HWY_INLINE TwoImpulses<Vector<S>> solve_points(Lanes<S>& k, const PassSettings<S>& settings, const Bound& bound) {
+  PointLanes<S>&p1 = k.block.points[0], &p2 = k.block.points[1];
+  const Arms<S> r1(k, p1), r2(k, p2);
+  const Direction<S> n1 = normal_of(k, r1), n2 = normal_of(k, r2);
+  const NormalPoints<S> n(k);
+  const auto next = solve_normals<S, kUseBias>(k, r1, r2, n, settings);
+  const TwoImpulses<Vector<S>> d{hn::Sub(next.first, n.before.first), hn::Sub(next.second, n.before.second)};
+  store(next.first, p1.normal_impulse + k.lane);
+  store(next.second, p2.normal_impulse + k.lane);
+  if (settings.friction) {
+    const Direction<S> t1 = tangent_of(k, r1), t2 = tangent_of(k, r2);
+    const auto by_normals = [&](const Direction<S>& t) HWY_ATTR {
+      return hn::Add(hn::Mul(coupling(n1, t), d.first), hn::Mul(coupling(n2, t), d.second));
+    };
+    const auto friction = load(k.block.friction + k.lane);
+    const auto before_1 = load(p1.tangent_impulse + k.lane), before_2 = load(p2.tangent_impulse + k.lane);
+    const auto speed_1 = hn::Add(tangent_speed(k, r1), by_normals(t1));
+    const auto next_1 = solve_friction<S>(before_1, load(p1.tangent_mass + k.lane), speed_1,
+                                          hn::Mul(friction, bound(p1, n.before.first, next.first)));
+    const auto f1 = hn::Sub(next_1, before_1);
+    const auto by_first = hn::Mul(hn::Add(hn::Add(k.a.im, k.b.im), coupling(t1, t2)), f1);
+    const auto speed_2 = hn::Add(hn::Add(tangent_speed(k, r2), by_normals(t2)), by_first);
+    const auto next_2 = solve_friction<S>(before_2, load(p2.tangent_mass + k.lane), speed_2,
+                                          hn::Mul(friction, bound(p2, n.before.second, next.second)));
+    store(next_1, p1.tangent_impulse + k.lane);
+    store(next_2, p2.tangent_impulse + k.lane);
+    push<S>(k, t1, t2, {f1, hn::Sub(next_2, before_2)}, k.push_across);
+  }
+  push<S>(k, n1, n2, d, k.push_along);
   return next;
 }
 
@@ -459,15 +492,15 @@ HWY_INLINE void restitute_lanes(Lanes<S>& k, const ContactBlockRest<S>& rest) {
   const auto q1 = hn::Add(n.wanted_1(normal_speed(k, r1)), u1);
   const auto q2 = hn::IfThenElse(there, hn::Add(n.wanted_2(normal_speed(k, r2)), u2), set(S(-kFarSeparation)));
   const auto next = solve_two<S>(n.m1, n.coupling, n.m2, q1, q2);
-  const auto bounce = [&](PointLanes<S>& p, const Arms<S>& r, auto after, auto before) HWY_ATTR {
+  const auto bounce = [&](PointLanes<S>& p, auto after, auto before) HWY_ATTR {
     const auto impulse = hn::IfThenElseZero(bounces, hn::Sub(after, before));
-    push_along_normal(k, r, impulse);
     store(hn::Add(load(p.total_normal_impulse + k.lane), impulse), p.total_normal_impulse + k.lane);
     store(hn::IfThenElse(bounces, zero, before), p.normal_impulse + k.lane);
     store(hn::IfThenZeroElse(bounces, load(p.tangent_impulse + k.lane)), p.tangent_impulse + k.lane);
+    return impulse;
   };
-  bounce(p1, r1, next.first, n.before.first);
-  bounce(p2, r2, next.second, n.before.second);
+  const auto first = bounce(p1, next.first, n.before.first), second = bounce(p2, next.second, n.before.second);
+  push<S>(k, normal_of(k, r1), normal_of(k, r2), {first, second}, k.push_along);
 }
 
 // Calls work(lanes) for each vector of each block, in order, and writes velocities back.
@@ -501,15 +534,9 @@ HWY_INLINE Vector<S> without_shock(const Lanes<S>& k, const PointLanes<S>& p, Ve
 template <class S>
 void solve(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const PassSettings<S>& settings) {
   for_each_vector<S>(motions, blocks, count, [&settings](Lanes<S>& k) HWY_ATTR {
-    PointLanes<S>&p1 = k.block.points[0], &p2 = k.block.points[1];
-    const Arms<S> r1(k, p1), r2(k, p2);
-    const auto before_1 = load(p1.normal_impulse + k.lane), before_2 = load(p2.normal_impulse + k.lane);
-    const auto normals = solve_normals<S, true>(k, r1, r2, settings);
-    if (settings.friction) {
-      const auto friction = load(k.block.friction + k.lane);
-      solve_friction(k, r1, p1, friction, without_shock(k, p1, before_1, normals.first));
-      solve_friction(k, r2, p2, friction, without_shock(k, p2, before_2, normals.second));
-    }
+    solve_points<S, true>(k, settings, [&k](const PointLanes<S>& p, Vector<S> before, Vector<S> now) HWY_ATTR {
+      return without_shock(k, p, before, now);
+    });
   });
 }
 
@@ -518,14 +545,9 @@ void solve(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const
 template <class S, bool kLast>
 void relax(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const PassSettings<S>& settings) {
   for_each_vector<S>(motions, blocks, count, [&settings](Lanes<S>& k) HWY_ATTR {
+    const auto normals = solve_points<S, false>(
+        k, settings, [](const PointLanes<S>&, Vector<S>, Vector<S> now) HWY_ATTR { return now; });
     PointLanes<S>&p1 = k.block.points[0], &p2 = k.block.points[1];
-    const Arms<S> r1(k, p1), r2(k, p2);
-    const auto normals = solve_normals<S, false>(k, r1, r2, settings);
-    if (settings.friction) {
-      const auto friction = load(k.block.friction + k.lane);
-      solve_friction(k, r1, p1, friction, normals.first);
-      solve_friction(k, r2, p2, friction, normals.second);
-    }
     const TwoImpulses<Vector<S>> totals{add_to_totals(k, p1, normals.first), add_to_totals(k, p2, normals.second)};
     if (kLast) follow_loads(k, totals, settings);
   });
