@@ -2,6 +2,7 @@
 // a system header is left out of the dependencies that the compiler writes.
 #include "physics/solver/joint_kernels.h"
 
+#include "physics/constants.h"
 #include "physics/simd/targets.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "physics/solver/joint_kernels.cpp"
@@ -124,6 +125,14 @@ HWY_INLINE void refresh(const Motion<S>* motions, Lanes<S>& k) {
   store(m.m22, block.m22 + k.lane);
 }
 
+// How much of the speed that a gap asks for it gets.
+template <class S>
+HWY_INLINE Vector<S> pulled_share(Vector<S> x, Vector<S> y) {
+  const auto most = hn::Set(Tag<S>(), S(kJointPullSpeedMax)), one = hn::Set(Tag<S>(), S(1));
+  const auto speed2 = hn::Add(hn::Mul(x, x), hn::Mul(y, y));
+  return hn::IfThenElse(hn::Gt(speed2, hn::Mul(most, most)), hn::Div(most, hn::Sqrt(speed2)), one);
+}
+
 template <class S, bool kUseBias>
 HWY_INLINE void hold(Lanes<S>& k, const JointSettings<S>& settings) {
   PointBlock<S>& block = k.block;
@@ -132,8 +141,10 @@ HWY_INLINE void hold(Lanes<S>& k, const JointSettings<S>& settings) {
   auto vy = hn::Sub(hn::Add(k.b.y, hn::Mul(k.b.w, r.bx)), hn::Add(k.a.y, hn::Mul(k.a.w, r.ax)));
   if (kUseBias) {
     const auto lose = hn::Set(Tag<S>(), S(1) - settings.stiff.keep), pull = hn::Set(Tag<S>(), settings.stiff.pull);
-    vx = hn::Add(hn::Mul(lose, vx), hn::Mul(pull, k.field(block.gap_x)));
-    vy = hn::Add(hn::Mul(lose, vy), hn::Mul(pull, k.field(block.gap_y)));
+    const auto pull_x = hn::Mul(pull, k.field(block.gap_x)), pull_y = hn::Mul(pull, k.field(block.gap_y));
+    const auto share = pulled_share<S>(pull_x, pull_y);
+    vx = hn::Add(hn::Mul(lose, vx), hn::Mul(share, pull_x));
+    vy = hn::Add(hn::Mul(lose, vy), hn::Mul(share, pull_y));
   }
   const auto zero = hn::Zero(Tag<S>()), m12 = k.field(block.m12);
   auto px = hn::Sub(zero, hn::Add(hn::Mul(k.field(block.m11), vx), hn::Mul(m12, vy)));

@@ -57,6 +57,17 @@ struct Pair {
   }
 };
 
+// The share of a gap that is pulled shut: all of it, unless that would be too fast.
+template <class S>
+S pulled_share(S gap, const SpringStep<S>& s) {
+  const S speed = s.pull * absolute(gap), most = S(kJointPullSpeedMax);
+  return speed > most ? most / speed : S(1);
+}
+template <class S>
+Vec<S> pulled_gap(const Vec<S>& gap, const SpringStep<S>& s) {
+  return gap * pulled_share(length<S>(gap), s);
+}
+
 template <class S>
 constexpr Row<S> kTurning{S(0), S(0), S(1), S(1)};
 
@@ -181,7 +192,8 @@ void solve_two_rows(Pair<S>& p, const Row<S>& r, const Row<S>& q, S xr, S xq, co
 template <class S>
 void solve_prismatic(Pair<S>& p, const SpringStep<S>& s) {
   const Vec<S> u = prismatic_axis(p), across(-u.y(), u.x());
-  solve_two_rows(p, row_at_b(p, across), kTurning<S>, dot<S>(p.gap, across), p.angle(), s, p.j.impulse_x, p.j.turn);
+  const S gap = dot<S>(p.gap, across), pulled = gap * pulled_share(gap, s);
+  solve_two_rows(p, row_at_b(p, across), kTurning<S>, pulled, p.angle(), s, p.j.impulse_x, p.j.turn);
 }
 
 // Three rows at once: K = L D Lᵀ.
@@ -195,8 +207,9 @@ void solve_stiff_weld(Pair<S>& p, const SpringStep<S>& s) {
   S d3 = p.inverse_mass(t) - l31 * l31 * d1 - l32 * l32 * d2;
   if (!(d3 > S(0))) d3 = S(1);  // neither body can turn
   const S lose = S(1) - s.keep;
-  const S e1 = -(lose * p.rate(x) + s.pull * p.gap.x());
-  const S e2 = -(lose * p.rate(y) + s.pull * p.gap.y()) - l21 * e1;
+  const Vec<S> gap = pulled_gap<S>(p.gap, s);
+  const S e1 = -(lose * p.rate(x) + s.pull * gap.x());
+  const S e2 = -(lose * p.rate(y) + s.pull * gap.y()) - l21 * e1;
   const S e3 = -(lose * p.rate(t) + s.pull * p.angle()) - l31 * e1 - l32 * e2;
   const S s3 = e3 / d3, s2 = e2 / d2 - l32 * s3, s1 = e1 / d1 - l21 * s2 - l31 * s3;
   const S i1 = s1 - s.keep * j.impulse_x, i2 = s2 - s.keep * j.impulse_y, i3 = s3 - s.keep * j.turn;
@@ -208,14 +221,14 @@ void solve_stiff_weld(Pair<S>& p, const SpringStep<S>& s) {
   p.push(t, i3);
 }
 
-// A point held by a spring.
+// A point held by a spring, which pulls at this gap.
 template <class S>
-void solve_point(Pair<S>& p, const SpringStep<S>& s) {
+void solve_point(Pair<S>& p, const Vec<S>& gap, const SpringStep<S>& s) {
   JointRows<S>& j = p.j;
   const Row<S> x = row_in_gap(p, S(1), S(0)), y = row_in_gap(p, S(0), S(1));
   const S k11 = p.inverse_mass(x), k12 = p.coupling(x, y), k22 = p.inverse_mass(y);
   const S inverse = S(1) / (k11 * k22 - k12 * k12), lose = S(1) - s.keep;
-  const S e1 = lose * p.rate(x) + s.pull * p.gap.x(), e2 = lose * p.rate(y) + s.pull * p.gap.y();
+  const S e1 = lose * p.rate(x) + s.pull * gap.x(), e2 = lose * p.rate(y) + s.pull * gap.y();
   const S i1 = -(k22 * e1 - k12 * e2) * inverse - s.keep * j.impulse_x;
   const S i2 = -(k11 * e2 - k12 * e1) * inverse - s.keep * j.impulse_y;
   j.impulse_x += i1;
@@ -239,9 +252,9 @@ void solve_weld(Pair<S>& p, const SpringStep<S>& stiff) {
   if (!soft && !soft_turn) return solve_stiff_weld(p, stiff);
   // Springs first, so that what is stiff has the last word.
   if (soft_turn && kUseBias) solve_turn(p, p.j.angular_spring);
-  if (soft && kUseBias) solve_point(p, p.j.spring);
+  if (soft && kUseBias) solve_point<S>(p, p.gap, p.j.spring);
   if (!soft_turn) solve_turn(p, stiff);
-  if (!soft) solve_point(p, stiff);
+  if (!soft) solve_point<S>(p, pulled_gap<S>(p.gap, stiff), stiff);
 }
 
 // The spring of a mouse joint, with no more than its force.
@@ -250,7 +263,7 @@ void drag(Pair<S>& p) {
   JointRows<S>& j = p.j;
   const S before_x = j.impulse_x, before_y = j.impulse_y;
   const Motion<S> b = p.b;
-  solve_point(p, j.spring);
+  solve_point<S>(p, p.gap, j.spring);
   const S size = std::sqrt(j.impulse_x * j.impulse_x + j.impulse_y * j.impulse_y);
   if (size <= j.motor_bound) return;
   p.b = b;
