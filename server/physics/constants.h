@@ -93,6 +93,9 @@ inline constexpr double kFacePreference = 1e-4;  // m
 // Loops shorter than two of these are not worth a second thread: about two microseconds of work each.
 inline constexpr unsigned kBodiesPerShare = 64;
 inline constexpr unsigned kBlocksPerShare = 4;
+// A pass takes a tenth of a microsecond a block, but where it is shared out the bodies have to come over from the other
+// processor's cache: that much for each block, if neighbours in a block are not neighbours in the world.
+inline constexpr unsigned kBlocksPerPassShare = 16;
 inline constexpr unsigned kPairsPerShare = 256;
 inline constexpr unsigned kImpactsPerShare = 8;
 

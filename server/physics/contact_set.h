@@ -43,6 +43,15 @@ struct ContactSet {
   bool current = false;              // the lanes hold this step's manifolds (not so after a restore)
 };
 
+// Lists all blocks as they are now, colour after colour.
+template <class S>
+const std::vector<typename ContactSet<S>::WholeBlock>& list_blocks(ContactSet<S>& set) {
+  set.blocks.clear();
+  for (auto& color : set.colors)
+    for (std::size_t i = 0; i < color.blocks.size(); ++i) set.blocks.push_back({&color.blocks[i], &color.rest[i]});
+  return set.blocks;
+}
+
 // Puts a contact with points into a lane, with the impulses of its record. Its manifold follows in update_contacts.
 template <class S>
 void insert_lane(WorldData<S>& world, std::uint32_t contact);

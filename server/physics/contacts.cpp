@@ -124,17 +124,17 @@ void take(const WorldData<S>& world, const ManifoldLanes<S>& manifolds, ContactB
 }
 
 template <class S>
-void list_blocks(ContactSet<S>& set) {
-  set.blocks.clear();
-  for (auto& color : set.colors)
-    for (std::size_t i = 0; i < color.blocks.size(); ++i) set.blocks.push_back({&color.blocks[i], &color.rest[i]});
-}
-
-template <class S>
 void list_parted(const ManifoldLanes<S>& manifolds, const ContactBlock<S>& block, const ContactBlockRest<S>& rest,
                  std::vector<std::uint32_t>& parted) {
   for (std::uint32_t lane = 0; lane < block.count; ++lane)
     if (manifolds.count[lane] == S(0)) parted.push_back(rest.contact[lane]);
+}
+
+template <class S>
+bool any_parted(const ManifoldLanes<S>& manifolds, const ContactBlock<S>& block) {
+  bool any = false;
+  for (std::uint32_t lane = 0; lane < block.count; ++lane) any |= manifolds.count[lane] == S(0);
+  return any;
 }
 
 // Contacts with unmovable bodies, whose blocks begin at `first`, are looked at together before any is taken over.
@@ -148,18 +148,23 @@ void update_ground_lanes(WorldData<S>& world, std::size_t first, std::vector<std
     for (std::size_t i = begin; i < end; ++i)
       collide_lanes(world, *blocks[first + i].block, *blocks[first + i].rest, manifolds[i]);
   });
+  std::vector<std::uint8_t>& parts_here = world.scratch.findings;
+  parts_here.resize(count);
   const std::size_t last_color = count - world.touching.colors[kColorsMax - 1].blocks.size();
   for (std::size_t i = 0; i < count; ++i)
     note_ground(world, i >= last_color, *blocks[first + i].block, *blocks[first + i].rest, manifolds[i]);
   join_seams(world);
   world.team->share(count, kBlocksPerShare, [&](unsigned, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
+    for (std::size_t i = begin; i < end; ++i) {
       take(world, manifolds[i], *blocks[first + i].block, *blocks[first + i].rest);
+      parts_here[i] = any_parted(manifolds[i], *blocks[first + i].block);
+    }
   });
   finish_seams(world);
   // After those of all parts, so that the order does not depend on how many there are.
-  for (std::size_t i = 0; i < count; ++i)
-    list_parted(manifolds[i], *blocks[first + i].block, *blocks[first + i].rest, parted.back());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (parts_here[i] != 0) list_parted(manifolds[i], *blocks[first + i].block, *blocks[first + i].rest, parted.back());
+  }
 }
 
 // Leaves the contacts that part now in the lists by part.
@@ -379,15 +384,25 @@ void report_lane(WorldData<S>& world, std::uint32_t slot, const ContactBlockRest
 
 template <class S>
 void report_lanes(WorldData<S>& world) {
-  for (auto& color : world.touching.colors) {
-    for (std::size_t i = 0; i < color.blocks.size(); ++i) {
-      ContactBlockRest<S>& rest = color.rest[i];
-      const std::uint32_t meeting = contact_passes<S>().meeting(color.blocks[i], rest);
-      for (std::uint32_t changed = meeting ^ rest.begun; changed != 0; changed &= changed - 1) {
-        const auto lane = static_cast<std::uint32_t>(__builtin_ctz(changed));
+  const auto& blocks = list_blocks(world.touching);
+  std::vector<std::vector<std::uint32_t>>& changed = lists_by_part(world);
+  world.team->share(blocks.size(), kBlocksPerShare, [&](unsigned part, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      ContactBlockRest<S>& rest = *blocks[i].rest;
+      const std::uint32_t meeting = contact_passes<S>().meeting(*blocks[i].block, rest);
+      if (meeting == rest.begun) continue;
+      changed[part].push_back(static_cast<std::uint32_t>(i));
+      changed[part].push_back(meeting ^ rest.begun);
+      rest.begun = meeting;
+    }
+  });
+  for (const std::vector<std::uint32_t>& list : changed) {
+    for (std::size_t i = 0; i < list.size(); i += 2) {
+      const ContactBlockRest<S>& rest = *blocks[list[i]].rest;
+      for (std::uint32_t lanes = list[i + 1]; lanes != 0; lanes &= lanes - 1) {
+        const auto lane = static_cast<std::uint32_t>(__builtin_ctz(lanes));
         report_lane(world, rest.contact[lane], rest, lane);
       }
-      rest.begun = meeting;
     }
   }
 }

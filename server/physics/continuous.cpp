@@ -154,12 +154,19 @@ class ContinuousCollision {
       }
       flush(batch, lists[part]);
     });
-    for (const auto& color : world_.touching.colors) {
-      for (std::size_t i = 0; i < color.blocks.size(); ++i) {
-        const ContactBlockRest<S>& rest = color.rest[i];
-        note_closing(rest.shape_a, rest.shape_b, rest.contact, color.blocks[i].count, lists.back());
+    take_up(lists);
+    for (auto& list : lists) list.clear();
+    const auto& blocks = list_blocks(world_.touching);
+    world_.team->share(blocks.size(), kBlocksPerShare, [&](unsigned part, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const ContactBlockRest<S>& rest = *blocks[i].rest;
+        note_closing(rest.shape_a, rest.shape_b, rest.contact, blocks[i].block->count, lists[part]);
       }
-    }
+    });
+    take_up(lists);
+  }
+
+  void take_up(const std::vector<std::vector<std::uint32_t>>& lists) {
     for (const auto& list : lists) closing_.insert(closing_.end(), list.begin(), list.end());
   }
 

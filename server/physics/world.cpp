@@ -117,6 +117,7 @@ void WorldOf<S>::step() {
     if (data_.model.joints) break_joints(data_);
     if (data_.model.sleeping) update_sleep(data_);
   });
+  data_.team->rest();
   data_.events_reported = data_.events.size();
   ++data_.step_count;
 }

@@ -1,6 +1,7 @@
 #include "physics/solver/soft_step.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "physics/constants.h"
 #include "physics/motion.h"
@@ -11,6 +12,10 @@
 
 namespace urto {
 namespace {
+
+// What a block of contacts costs in a pass, in bodies that are moved, and from how many on it pays to share them out
+// (decision 5: a heap of 2000 bodies loses by it, one of 5000 gains).
+constexpr std::size_t kBodiesPerBlock = 24, kBodiesToShareSolve = 9000;
 
 // A body without contacts and joints advances by the scene's integrator; one with contacts needs velocities that the
 // contacts have seen, which is what semi-implicit Euler gives.
@@ -27,17 +32,29 @@ template <class S>
 bool only_gravity_acts(WorldData<S>& world, const Mover<S>& mover) {
   if (world.model.damping || world.model.fields || world.model.second_integrator) return false;
   world.scratch.pulls.resize(world.awake.size());
-  for (std::size_t i = 0; i < world.awake.size(); ++i) {
-    const Body<S>& body = world.bodies[world.awake[i]];
-    if (body.flags & kBodyHasForce) return false;
-    world.scratch.pulls[i] = mover.pull(body);
-  }
-  return true;
+  std::atomic<bool> forces{false};
+  world.team->share(world.awake.size(), kBodiesPerShare, [&](unsigned, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Body<S>& body = world.bodies[world.awake[i]];
+      if (body.flags & kBodyHasForce) return forces.store(true, std::memory_order_relaxed);
+      world.scratch.pulls[i] = mover.pull(body);
+    }
+  });
+  return !forces.load(std::memory_order_relaxed);
+}
+
+// Where the passes are too short to be shared out, the bodies between them are not shared out either: they would only
+// wander between the processors' caches. Then this is more than there is of anything.
+template <class S>
+std::size_t grain_of_solve(const WorldData<S>& world, std::size_t grain) {
+  std::size_t work = world.awake.size();
+  for (const auto& color : world.touching.colors) work += kBodiesPerBlock * color.blocks.size();
+  return work >= kBodiesToShareSolve ? grain : work;
 }
 
 template <class S>
-void pull_bodies(WorldData<S>& world) {
-  world.team->share(world.awake.size(), kBodiesPerShare, [&](unsigned, std::size_t begin, std::size_t end) {
+void pull_bodies(WorldData<S>& world, std::size_t grain) {
+  world.team->share(world.awake.size(), grain, [&](unsigned, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Motion<S>& m = world.motions[world.awake[i]];
       m.vx += world.scratch.pulls[i].x();
@@ -47,8 +64,8 @@ void pull_bodies(WorldData<S>& world) {
 }
 
 template <class S>
-void integrate_velocities(WorldData<S>& world, const Mover<S>& mover) {
-  world.team->share(world.awake.size(), kBodiesPerShare, [&](unsigned, std::size_t begin, std::size_t end) {
+void integrate_velocities(WorldData<S>& world, const Mover<S>& mover, std::size_t grain) {
+  world.team->share(world.awake.size(), grain, [&](unsigned, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t slot = world.awake[i];
       if (!flies(world, slot)) mover.integrate_velocity(world.bodies[slot], world.motions[slot]);
@@ -57,14 +74,14 @@ void integrate_velocities(WorldData<S>& world, const Mover<S>& mover) {
 }
 
 template <class S>
-void integrate_positions(WorldData<S>& world, const Mover<S>& mover, S h) {
+void integrate_positions(WorldData<S>& world, const Mover<S>& mover, S h, std::size_t grain) {
   if (!world.model.second_integrator) {
-    world.team->share(world.awake.size(), kBodiesPerShare, [&](unsigned, std::size_t begin, std::size_t end) {
+    world.team->share(world.awake.size(), grain, [&](unsigned, std::size_t begin, std::size_t end) {
       motion_kernels<S>().integrate_positions(world.motions.data(), &world.awake[begin], end - begin, h);
     });
     return;
   }
-  world.team->share(world.awake.size(), kBodiesPerShare, [&](unsigned, std::size_t begin, std::size_t end) {
+  world.team->share(world.awake.size(), grain, [&](unsigned, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t slot = world.awake[i];
       if (flies(world, slot)) {
@@ -108,12 +125,12 @@ std::size_t full_blocks(const typename ContactSet<S>::Color& color) {
 // Colour after colour, those with unmovable bodies last; the blocks of one are shared out. Those that fit no colour are
 // solved one after the other.
 template <class S, class Work>
-void for_each_color(WorldData<S>& world, Order order, const Work& work) {
+void for_each_color(WorldData<S>& world, Order order, std::size_t block_grain, const Work& work) {
   for (std::uint32_t place = 0; place < kColorsMax; ++place) {
     const std::uint32_t i = color_at(place, order);
     auto& color = world.touching.colors[i];
     if (color.blocks.empty()) continue;
-    const std::size_t grain = takes_what_fits_nowhere(i) ? color.blocks.size() : kBlocksPerShare;
+    const std::size_t grain = takes_what_fits_nowhere(i) ? color.blocks.size() : block_grain;
     const bool ground = i >= kMovableColors;
     world.team->share(color.blocks.size(), grain,
                       [&](unsigned, std::size_t begin, std::size_t end) { work(color, ground, begin, end); });
@@ -128,11 +145,13 @@ void solve_soft_step(WorldData<S>& world, JointSet<S>& joint_set) {
   const S h = S(world.settings.time_step / n);
   const Mover<S> mover(world, h);
   const bool pulled = only_gravity_acts(world, mover);
+  const std::size_t body_grain = grain_of_solve(world, kBodiesPerShare);
+  const std::size_t block_grain = grain_of_solve(world, kBlocksPerPassShare);
   const PassSettings<S> between = pass_settings(world, h, S(1));
   const PassSettings<S> on_ground = pass_settings(world, h, S(kGroundStiffness));
   const ContactPasses<S>&passes = contact_passes<S>(), &half = half_passes<S>();
   const auto run = [&](typename ContactPasses<S>::Pass ContactPasses<S>::*pass, Order order) {
-    for_each_color(world, order, [&](auto& color, bool ground, std::size_t begin, std::size_t end) {
+    for_each_color(world, order, block_grain, [&](auto& color, bool ground, std::size_t begin, std::size_t end) {
       const PassSettings<S>& settings = ground ? on_ground : between;
       const std::size_t full = std::clamp(full_blocks<S>(color), begin, end);
       if (begin < full) (passes.*pass)(world.motions.data(), &color.blocks[begin], full - begin, settings);
@@ -142,27 +161,27 @@ void solve_soft_step(WorldData<S>& world, JointSet<S>& joint_set) {
   JointPasses<S> joints(world, joint_set, h);
   const auto note = [&](typename ContactPasses<S>::Note pass) {
     if (!world.model.restitution) return;
-    for_each_color(world, Order::kForwards, [&](auto& color, bool, std::size_t begin, std::size_t end) {
+    for_each_color(world, Order::kForwards, block_grain, [&](auto& color, bool, std::size_t begin, std::size_t end) {
       pass(world.motions.data(), &color.blocks[begin], &color.rest[begin], end - begin, between);
     });
   };
   for (std::uint32_t i = 0; i < n; ++i) {
     note(passes.note_approach);
     if (pulled) {
-      pull_bodies(world);
+      pull_bodies(world, body_grain);
     } else {
-      integrate_velocities(world, mover);
+      integrate_velocities(world, mover, body_grain);
     }
     note(passes.note_bounce);
     joints.warm_start();
     run(&ContactPasses<S>::warm_start, Order::kForwards);
     joints.solve();
     run(&ContactPasses<S>::solve, i % 2 == 0 ? Order::kForwards : Order::kBackwards);
-    integrate_positions(world, mover, h);
+    integrate_positions(world, mover, h, body_grain);
     joints.relax();
     run(i + 1 < n ? &ContactPasses<S>::relax : &ContactPasses<S>::relax_last, Order::kBackwards);
     if (world.model.restitution) {
-      for_each_color(world, Order::kForwards, [&](auto& color, bool, std::size_t begin, std::size_t end) {
+      for_each_color(world, Order::kForwards, block_grain, [&](auto& color, bool, std::size_t begin, std::size_t end) {
         passes.restitute(world.motions.data(), &color.blocks[begin], &color.rest[begin], end - begin);
       });
     }
