@@ -131,10 +131,6 @@ template <class S>
 HWY_INLINE Vector<S> normal_speed(const Lanes<S>& k, const Arms<S>& r) {
   return hn::Add(k.speed_along, hn::Sub(hn::Mul(k.b.w, r.normal_b), hn::Mul(k.a.w, r.normal_a)));
 }
-template <class S>
-HWY_INLINE Vector<S> tangent_speed(const Lanes<S>& k, const Arms<S>& r) {
-  return hn::Add(k.speed_across, hn::Sub(hn::Mul(k.b.w, r.tangent_b), hn::Mul(k.a.w, r.tangent_a)));
-}
 
 // What an impulse along one direction at one point does to the bodies: its arms, and how much an impulse of 1 turns.
 template <class S>
@@ -152,6 +148,12 @@ HWY_INLINE Direction<S> normal_of(const Lanes<S>& k, const Arms<S>& r) {
 template <class S>
 HWY_INLINE Direction<S> tangent_of(const Lanes<S>& k, const Arms<S>& r) {
   return {k, r.tangent_a, r.tangent_b};
+}
+
+// m/s across the normal, of b against a.
+template <class S>
+HWY_INLINE Vector<S> sliding_speed(const Lanes<S>& k, const Direction<S>& t) {
+  return hn::Add(k.speed_across, hn::Sub(hn::Mul(k.b.w, t.arm_b), hn::Mul(k.a.w, t.arm_a)));
 }
 
 // 1/kg: the speed that an impulse of 1 along one direction makes along the other by turning the bodies.
@@ -371,15 +373,20 @@ HWY_INLINE TwoImpulses<Vector<S>> solve_normals(const Lanes<S>& k, const Arms<S>
   return solve_two<S>(k11, n.coupling, k22, q1, q2);
 }
 
-// λ of a point whose surfaces slide at `speed` over each other, within ±bound.
+// N·s: points that pushed less than this share friction evenly.
+constexpr double kImpulseLeast = 1e-30;
+
+// λ where surfaces slide at `speed` over each other, within ±bound.
 template <class S>
 HWY_INLINE Vector<S> solve_friction(Vector<S> before, Vector<S> mass, Vector<S> speed, Vector<S> bound) {
   return larger(smaller(hn::Sub(before, hn::Mul(mass, speed)), bound), hn::Neg(bound));
 }
 
-// Normal impulses, then friction: at one point, then at the other. Each sees what the ones before have done, which is
-// taken from how the directions are coupled and not from the bodies: that much shorter is the chain of operations that
-// have to wait for each other, and that chain, not their number, is what a pass costs.
+// Normal impulses, then friction. Both points slide along one line, so it is one equation, at the middle of the
+// normal impulses they had, and they share what it gives as they shared those: neither comes first, and a mirror image
+// gets the same bits. Friction sees what the normal impulses have done through how the directions are coupled and not
+// through the bodies: that much shorter is the chain of operations that have to wait for each other, and that chain,
+// not their number, is what a pass costs.
 template <class S, bool kUseBias, class Bound>
 HWY_INLINE TwoImpulses<Vector<S>> solve_points(Lanes<S>& k, const PassSettings<S>& settings, const Bound& bound) {
   PointLanes<S>&p1 = k.block.points[0], &p2 = k.block.points[1];
@@ -392,22 +399,28 @@ HWY_INLINE TwoImpulses<Vector<S>> solve_points(Lanes<S>& k, const PassSettings<S
   store(next.second, p2.normal_impulse + k.lane);
   if (settings.friction) {
     const Direction<S> t1 = tangent_of(k, r1), t2 = tangent_of(k, r2);
-    const auto by_normals = [&](const Direction<S>& t) HWY_ATTR {
-      return hn::Add(hn::Mul(coupling(n1, t), d.first), hn::Mul(coupling(n2, t), d.second));
-    };
     const auto friction = load(k.block.friction + k.lane);
+    const auto bound_1 = hn::Mul(friction, bound(p1, n.before.first, next.first));
+    const auto bound_2 = hn::Mul(friction, bound(p2, n.before.second, next.second));
+    const auto bounds = hn::Add(bound_1, bound_2);
+    const auto least = set(S(kImpulseLeast));
+    const auto there = hn::Lt(load(p2.separation + k.lane), set(S(kFarSeparation)));
+    const auto weight_1 = hn::Add(n.before.first, least);
+    const auto weight_2 = hn::Add(n.before.second, hn::IfThenElseZero(there, least));
+    const auto inverse = hn::Div(set(S(1)), hn::Add(weight_1, weight_2));
+    const auto share_1 = hn::Mul(weight_1, inverse), share_2 = hn::Mul(weight_2, inverse);
+    const auto mean = [&](auto first, auto second)
+                          HWY_ATTR { return hn::Add(hn::Mul(share_1, first), hn::Mul(share_2, second)); };
+    const Direction<S> t(k, mean(t1.arm_a, t2.arm_a), mean(t1.arm_b, t2.arm_b));
+    const auto by_normals = hn::Add(hn::Mul(coupling(n1, t), d.first), hn::Mul(coupling(n2, t), d.second));
+    const auto speed = hn::Add(sliding_speed(k, t), by_normals);
+    const auto mass = mean(load(p1.tangent_mass + k.lane), load(p2.tangent_mass + k.lane));
     const auto before_1 = load(p1.tangent_impulse + k.lane), before_2 = load(p2.tangent_impulse + k.lane);
-    const auto speed_1 = hn::Add(tangent_speed(k, r1), by_normals(t1));
-    const auto next_1 = solve_friction<S>(before_1, load(p1.tangent_mass + k.lane), speed_1,
-                                          hn::Mul(friction, bound(p1, n.before.first, next.first)));
-    const auto f1 = hn::Sub(next_1, before_1);
-    const auto by_first = hn::Mul(hn::Add(hn::Add(k.a.im, k.b.im), coupling(t1, t2)), f1);
-    const auto speed_2 = hn::Add(hn::Add(tangent_speed(k, r2), by_normals(t2)), by_first);
-    const auto next_2 = solve_friction<S>(before_2, load(p2.tangent_mass + k.lane), speed_2,
-                                          hn::Mul(friction, bound(p2, n.before.second, next.second)));
+    const auto both = solve_friction<S>(hn::Add(before_1, before_2), mass, speed, bounds);
+    const auto next_1 = hn::Mul(share_1, both), next_2 = hn::Mul(share_2, both);
     store(next_1, p1.tangent_impulse + k.lane);
     store(next_2, p2.tangent_impulse + k.lane);
-    push<S>(k, t1, t2, {f1, hn::Sub(next_2, before_2)}, k.push_across);
+    push<S>(k, t1, t2, {hn::Sub(next_1, before_1), hn::Sub(next_2, before_2)}, k.push_across);
   }
   push<S>(k, n1, n2, d, k.push_along);
   return next;
