@@ -22,14 +22,6 @@ bool has_outline(const Shape<S>& shape) {
   return shape.shape_kind() != ShapeKind::kBox && shape.shape_kind() != ShapeKind::kCircle;
 }
 
-// Whether the disc around a body with one outline is hardly larger than the outline: then its bounds do for both, and
-// the outline need not be gone round.
-template <class S>
-bool nearly_round(const Body<S>& body, const Shape<S>& shape) {
-  return body.shape_count == 1 && (shape.flags & kShapeCentred) != 0 &&
-         body.extent_min > S(kNearlyRound) * body.extent_max;
-}
-
 template <class S>
 Aabb<S> bounds_around(const WorldData<S>& world, Proxy proxy, const Vec<S>& center, const Rotation<S>& axis) {
   const Place<S>& place = world.places[proxy];
@@ -67,9 +59,7 @@ Aabb<S> tight_bounds(const WorldData<S>& world, Proxy proxy) {
   const Shape<S>& shape = world.shapes[proxy];
   const Place<S>& place = world.places[proxy];
   if (has_outline(shape)) {
-    const Body<S>& body = world.bodies[shape.body];
-    if (nearly_round(body, shape)) return Aabb<S>{body.center(), body.center()}.expanded(body.extent_max);
-    return world.convexes[proxy].bounds(body.pose());
+    return world.convexes[proxy].bounds(world.bodies[shape.body].pose());
   }
   return bounds_around<S>(world, proxy, Vec<S>(place.x, place.y), {place.c, place.s});
 }
@@ -117,8 +107,7 @@ bool still_bounded(const WorldData<S>& world, const Body<S>& body, Proxy proxy) 
     const Place<S>& place = world.places[proxy];
     const S extent = body.extent_max + shape.reach;
     const Vec<S> from(place.x, place.y), to(place.x + place.way_x, place.y + place.way_y);
-    const bool inside = shape.fat.contains(Aabb<S>{from, from}.merged(Aabb<S>{to, to}).expanded(extent));
-    if (inside || nearly_round(body, shape)) return inside;
+    if (shape.fat.contains(Aabb<S>{from, from}.merged(Aabb<S>{to, to}).expanded(extent))) return true;
   }
   return shape.fat.contains(swept_bounds(world, proxy).expanded(shape.reach));
 }

@@ -6,7 +6,7 @@ namespace urto {
 
 // Keeps the broad phase's bounds around the bodies, and finds the pairs they make.
 
-// Bounds of a shape at its place: its own, or those of the disc around it if it is nearly round.
+// Bounds of a shape at its place.
 template <class S>
 Aabb<S> tight_bounds(const WorldData<S>& world, Proxy proxy);
 

@@ -15,9 +15,6 @@ inline constexpr double kSpeculativeFraction = 0.2;  // of the shape's smallest 
 inline constexpr double kFatMarginFraction = 0.12;
 inline constexpr double kFatMarginMin = 0.01;  // m
 inline constexpr double kFatMarginMax = 0.1;   // m
-// From this ratio of the least to the greatest extent on, an outline is bounded by the disc around it, which is wider
-// by an eighth at most (mean width of an outline: its perimeter / π).
-inline constexpr double kNearlyRound = 0.65;
 
 // Overlap is undone no faster than this, so that a deep overlap does not become an explosion.
 inline constexpr double kPushSpeedMax = 3.0;  // m/s
@@ -89,6 +86,11 @@ inline constexpr double kAnchorDistanceMin = 1e-6;  // m
 // Of two faces that separate equally well, SAT keeps the first unless the second is better by this much, so that the
 // reference face does not flicker.
 inline constexpr double kFacePreference = 1e-4;  // m
+
+// From this ratio of its least to its greatest reach on, the disc around an outline tells most pairs apart that are.
+inline constexpr double kNearlyRound = 0.5;
+// By this share two discs must be further apart than they are large, so that rounding cannot hide a contact.
+inline constexpr double kDiscSlack = 1e-5;
 
 // Loops shorter than two of these are not worth a second thread: about two microseconds of work each.
 inline constexpr unsigned kBodiesPerShare = 64;

@@ -1,6 +1,7 @@
 #include "physics/contacts.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "physics/constants.h"
 #include "physics/contact_graph.h"
@@ -32,6 +33,19 @@ WorldManifold<S> manifold_of(const WorldData<S>& world, Proxy shape_a, Proxy sha
   m.between = Vec<S>(b.x - a.x, b.y - a.y);
   for (int i = 0; i < m.local.count; ++i) m.anchors[i] = pose_a.q.apply(m.local.points[i].p - a.local_center());
   return m;
+}
+
+// What lies about in memory is asked for so early that it is there when it is needed: nothing else is waited for as
+// long in scenes of some thousand bodies.
+template <class S>
+void fetch_place(const WorldData<S>& world, Proxy proxy) {
+  __builtin_prefetch(&world.places[proxy]);
+}
+template <class S>
+void fetch_outline(const WorldData<S>& world, Proxy proxy) {
+  const auto* const line = reinterpret_cast<const char*>(&world.outlines[proxy]);
+  __builtin_prefetch(line);
+  __builtin_prefetch(line + 64);
 }
 
 // Touching contacts: their lanes ---------------------------------------------------------------------------------
@@ -116,6 +130,17 @@ void collide_lanes(const WorldData<S>& world, const ContactBlock<S>& block, cons
   }
 }
 
+// Of a block that will be looked at soon.
+template <class S>
+void fetch_shapes(const WorldData<S>& world, const ContactBlockRest<S>& rest) {
+  for (std::uint32_t lane = 0; lane < static_cast<std::uint32_t>(kLanes<S>); ++lane) {
+    for (const Proxy proxy : {rest.shape_a[lane], rest.shape_b[lane]}) {
+      fetch_place(world, proxy);
+      if ((rest.polygons | rest.rounded) != 0) fetch_outline(world, proxy);
+    }
+  }
+}
+
 template <class S>
 void take(const WorldData<S>& world, const ManifoldLanes<S>& manifolds, ContactBlock<S>& block,
           ContactBlockRest<S>& rest) {
@@ -178,6 +203,7 @@ void update_lanes(WorldData<S>& world) {
   world.team->share(ground, kBlocksPerShare, [&](unsigned part, std::size_t begin, std::size_t end) {
     ManifoldLanes<S> manifolds{};
     for (std::size_t i = begin; i < end; ++i) {
+      if (i + 1 < end) fetch_shapes(world, *blocks[i + 1].rest);
       collide_lanes(world, *blocks[i].block, *blocks[i].rest, manifolds);
       take(world, manifolds, *blocks[i].block, *blocks[i].rest);
       list_parted(manifolds, *blocks[i].block, *blocks[i].rest, parted[part]);
@@ -246,6 +272,25 @@ S approach_speed(const WorldData<S>& world, const Contact<S>& c) {
   return max_of(S(0), -(vx * c.nx + vy * c.ny));
 }
 
+// m, of a disc around the shape's centroid that holds it.
+template <class S>
+S disc_around(const Place<S>& place) {
+  return place.half_height > S(0) ? place.half_width + place.half_height : -place.half_height;
+}
+
+// Whether discs around two shapes are out of each other's reach: then there is no manifold, and no need to ask a
+// kernel.
+template <class S>
+bool discs_apart(const Place<S>& a, const Place<S>& b) {
+  const auto smaller = [](S x, S y) { return x < y ? x : y; };  // no branch
+  const S dx = b.x - a.x, dy = b.y - a.y;
+  const S way = std::abs(b.way_x - a.way_x) + std::abs(b.way_y - a.way_y) + (a.turn + b.turn);
+  const S reach = smaller(a.reach, b.reach) + smaller(way, smaller(a.bound, b.bound));
+  // The share is for rounding.
+  const S near = S(1 + kDiscSlack) * (disc_around(a) + disc_around(b) + reach);
+  return dx * dx + dy * dy > near * near;
+}
+
 enum Finding : std::uint8_t { kApart, kParted, kMet };
 
 // Looks at contacts that do not touch yet, and notes what it finds by their index: kParted what has left the other's
@@ -256,22 +301,37 @@ class Lookout {
   explicit Lookout(WorldData<S>& world) : world_(world), lanes_(world.settings.solver == SolverKind::kSoftStep) {}
 
   void look_at(std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) look_at(static_cast<std::uint32_t>(i));
+    for (std::size_t i = begin; i < end; ++i) {
+      if (i + kAhead < end) fetch(world_.active[i + kAhead]);
+      look_at(static_cast<std::uint32_t>(i));
+    }
     flush(boxes_);
     flush(polygons_);
     flush(rounded_);
   }
 
  private:
+  static constexpr std::size_t kAhead = 12;  // pairs
+
+  void fetch(const ActiveContact& active) const {
+    for (const Proxy proxy : {active.shape_a, active.shape_b}) {
+      fetch_place(world_, proxy);
+      __builtin_prefetch(&world_.shapes[proxy].fat);
+    }
+  }
+
   void look_at(std::uint32_t index) {
     const ActiveContact& active = world_.active[index];
     if (!world_.shapes[active.shape_a].fat.overlaps(world_.shapes[active.shape_b].fat)) {
       world_.scratch.findings[index] = kParted;
       return;
     }
-    const PairKind kind = pair_kind(world_.places[active.shape_a], world_.places[active.shape_b]);
+    const Place<S>&a = world_.places[active.shape_a], &b = world_.places[active.shape_b];
+    const PairKind kind = pair_kind(a, b);
     if (!lanes_ || active.sensor || kind == PairKind::kGeneral) return update_one(index);
-    add(index, kind == PairKind::kBoxes ? boxes_ : kind == PairKind::kPolygons ? polygons_ : rounded_);
+    if (kind == PairKind::kBoxes) return add(index, true, boxes_);
+    const bool round = a.half_height != S(0) && b.half_height != S(0);
+    add(index, !round || !discs_apart(a, b), kind == PairKind::kPolygons ? polygons_ : rounded_);
   }
 
   // What a kernel may take is looked at side by side.
@@ -281,11 +341,17 @@ class Lookout {
     std::uint32_t a[kLanes<S>] = {}, b[kLanes<S>] = {}, index[kLanes<S>] = {};
   };
 
-  void add(std::uint32_t index, Batch& batch) {
+  // Without a branch on `near`, which nobody could foretell.
+  void add(std::uint32_t index, bool near, Batch& batch) {
     batch.a[batch.count] = world_.active[index].shape_a;
     batch.b[batch.count] = world_.active[index].shape_b;
     batch.index[batch.count] = index;
-    if (++batch.count == static_cast<std::uint32_t>(kLanes<S>)) flush(batch);
+    batch.count += near ? 1 : 0;
+    if (batch.kind != PairKind::kBoxes) {
+      fetch_outline(world_, world_.active[index].shape_a);
+      fetch_outline(world_, world_.active[index].shape_b);
+    }
+    if (batch.count == static_cast<std::uint32_t>(kLanes<S>)) flush(batch);
   }
 
   void flush(Batch& batch) {
@@ -340,7 +406,11 @@ void find_met_and_parted(WorldData<S>& world) {
 template <class S>
 void update_active(WorldData<S>& world) {
   find_met_and_parted(world);
-  for (std::uint32_t slot : world.scratch.parted) destroy_contact(world, slot);
+  const std::vector<std::uint32_t>& gone = world.scratch.parted;
+  for (std::size_t i = 0; i < gone.size(); ++i) {
+    if (i + 4 < gone.size()) __builtin_prefetch(&world.contacts[gone[i + 4]]);
+    destroy_contact(world, gone[i]);
+  }
   for (std::uint32_t slot : world.scratch.met) {
     Contact<S>& c = world.contacts[slot];
     c.count = c.count > 0 ? c.count : 1;  // which it is, the lane will know

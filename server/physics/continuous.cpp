@@ -99,8 +99,15 @@ class ContinuousCollision {
       place.turn = absolute(m.da) * body.extent_max;
       place.fast = fast ? S(1) : S(0);
       const Shape<S>& shape = world_.shapes[p];
-      if (fast && !shape.sensor() && !shape.fat.contains(way_bounds(world_, p))) left.push_back(p);
+      if (fast && !shape.sensor() && !holds_way(shape, body, m) && !shape.fat.contains(way_bounds(world_, p)))
+        left.push_back(p);
     }
+  }
+
+  // Whether bounds hold the disc around a body all the way: the outline need not be gone round then.
+  static bool holds_way(const Shape<S>& shape, const Body<S>& body, const Motion<S>& m) {
+    const Vec<S> from(body.x, body.y), to(body.x + m.dx, body.y + m.dy);
+    return shape.fat.contains(Aabb<S>{from, from}.merged(Aabb<S>{to, to}).expanded(body.extent_max));
   }
 
   void stretch(Proxy p) {
@@ -207,23 +214,33 @@ class ContinuousCollision {
   // What touches does not close in where it touches, or the contact would have seen to it; but it may swing around that
   // place, and out behind the other if that is no thicker than the swing.
   bool may_swing_through(const Contact<S>& c) const {
-    // A chain has no inside to sink into.
-    if (world_.convexes[c.shape_a].chain_segment() || world_.convexes[c.shape_b].chain_segment()) return false;
     const Body<S>&a = world_.bodies[c.body_a], &b = world_.bodies[c.body_b];
     const S turn = absolute(courses_.of(c.body_b).da - courses_.of(c.body_a).da);
-    return turn * min_of(a.extent_max, b.extent_max) > S(kFastFraction) * (a.extent_min + b.extent_min);
+    if (!(turn * min_of(a.extent_max, b.extent_max) > S(kFastFraction) * (a.extent_min + b.extent_min))) return false;
+    // A chain has no inside to sink into.
+    return !world_.convexes[c.shape_a].chain_segment() && !world_.convexes[c.shape_b].chain_segment();
+  }
+
+  // Whether discs around the bodies are further apart than those come nearer.
+  bool out_of_reach(const Contact<S>& c, S way, S now) const {
+    const S discs = world_.bodies[c.body_a].extent_max + world_.bodies[c.body_b].extent_max;
+    const S reach = min_of(world_.shapes[c.shape_a].reach, world_.shapes[c.shape_b].reach);
+    const S near = S(1 + kDiscSlack) * (discs + way + reach);
+    const Vec<S> between = courses_.center_at(c.body_b, now) - courses_.center_at(c.body_a, now);
+    return dot(between, between) > near * near;
   }
 
   // The pair's next impact after `now`, if it has one in this step.
   bool find_impact(const Contact<S>& c, S now, S& time) const {
+    // A contact that has a lane was solved in this step: what it lets come nearer may.
+    if (c.has_lane() && !may_swing_through(c)) return false;
     const Body<S>&body_a = world_.bodies[c.body_a], &body_b = world_.bodies[c.body_b];
     const S approach = approach_max(c.body_a, c.body_b, now);
     if (!passes(body_a, body_b, approach)) return false;
+    if (!c.has_lane() && out_of_reach(c, approach * (S(1) - now), now)) return false;
     const Convex<S>&a = world_.convexes[c.shape_a], &b = world_.convexes[c.shape_b];
     const Sweep<S> sa = courses_.sweep_from(c.body_a, now), sb = courses_.sweep_from(c.body_b, now);
     const S reach = min_of(world_.shapes[c.shape_a].reach, world_.shapes[c.shape_b].reach);
-    // A contact that has a lane was solved in this step: what it lets come nearer may.
-    if (c.has_lane() && !may_swing_through(c)) return false;
     const S apart = gjk_distance(a, b, sa.pose(S(0)).inverse_times(sb.pose(S(0)))).separation;
     S target, tolerance;
     if (!c.has_lane() && apart > S(kImpactToleranceFraction) * reach) {

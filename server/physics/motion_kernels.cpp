@@ -159,29 +159,93 @@ HWY_INLINE std::uint32_t simple_shape(const StepEnd<S>& world, std::uint32_t slo
   return (shape.flags & asked) == asked ? body.first_shape : kNone;
 }
 
-// Sets places, and finds out which of their shapes stay within the bounds that the broad phase knows.
-template <class S, class PlaceOf, class ShapeOf>
-HWY_INLINE Mask<S> follow_vector(const PlaceOf& place, const ShapeOf& shape, const Columns<S>& pose, Vector<S> turn,
-                                 Vector<S> way_x, Vector<S> way_y, Vector<S> extent_max) {
+// How far shapes reach from their centroids.
+template <class S>
+struct Extents {
+  Vector<S> low_x, low_y, high_x, high_y;
+
+  // A box reaches as far as its corners, an outline as far as its vertices and its radius, and what has neither here (a
+  // chain) no further than the disc around it. `half`: row half_width of the places; counts: of vertices.
+  template <class RowsOf>
+  HWY_INLINE Extents(const Columns<S>& half, Vector<S> counts, Vector<S> cosine, Vector<S> sine, Vector<S> disc,
+                     const RowsOf& rows_of) {
+    const auto zero = hn::Zero(Tag<S>());
+    const auto box = hn::Gt(half.c1, zero);
+    const auto outline = hn::AndNot(box, hn::Gt(counts, zero));
+    const auto c = hn::Abs(cosine), s = hn::Abs(sine);
+    high_x = hn::IfThenElse(box, hn::Add(hn::Mul(c, half.c0), hn::Mul(s, half.c1)), disc);
+    high_y = hn::IfThenElse(box, hn::Add(hn::Mul(c, half.c1), hn::Mul(s, half.c0)), disc);
+    low_x = hn::Neg(high_x);
+    low_y = hn::Neg(high_y);
+    if (hn::AllFalse(Tag<S>(), outline)) return;
+    const int most = most_of(hn::IfThenElseZero(outline, counts));
+    auto x0 = zero, y0 = zero, x1 = zero, y1 = zero;
+    for (int k = 0; k < most; ++k) {
+      const auto row = load_rows<S>([&](std::size_t i) { return rows_of(i)[k]; });
+      const auto x = hn::Sub(hn::Mul(cosine, row.c0), hn::Mul(sine, row.c1));
+      const auto y = hn::Add(hn::Mul(sine, row.c0), hn::Mul(cosine, row.c1));
+      x0 = k == 0 ? x : smaller(x0, x);
+      y0 = k == 0 ? y : smaller(y0, y);
+      x1 = k == 0 ? x : larger(x1, x);
+      y1 = k == 0 ? y : larger(y1, y);
+    }
+    low_x = hn::IfThenElse(outline, hn::Sub(x0, half.c0), low_x);
+    low_y = hn::IfThenElse(outline, hn::Sub(y0, half.c0), low_y);
+    high_x = hn::IfThenElse(outline, hn::Add(x1, half.c0), high_x);
+    high_y = hn::IfThenElse(outline, hn::Add(y1, half.c0), high_y);
+  }
+
+ private:
+  static HWY_INLINE int most_of(Vector<S> counts) {
+    HWY_ALIGN S lanes[kLanes<S>];
+    store(counts, lanes);
+    S most = 0;
+    for (std::size_t i = 0; i < hn::Lanes(Tag<S>()); ++i) most = lanes[i] > most ? lanes[i] : most;
+    return static_cast<int>(most);
+  }
+};
+
+// What a vector of shapes is followed by: where their bodies are, and how far those come and turn in a step.
+template <class S>
+struct Following {
+  Vector<S> x, y, c, s;  // of the centroid, of the body
+  Vector<S> way_x, way_y, turn;
+  Vector<S> disc;  // m, around the body
+};
+
+// Sets places, but for the offsets of their centroids, and the bounds of those shapes that left them, a bit each.
+template <class S, class PlaceOf, class ShapeOf, class RowsOf>
+HWY_INLINE std::uint32_t follow_vector(const PlaceOf& place, const ShapeOf& shape, const RowsOf& rows_of,
+                                       const Following<S>& to, std::uint32_t lanes) {
   const auto p1 = load_rows<S>([&](std::size_t i) { return &place(i)->half_width; });
   const auto p2 = load_rows<S>([&](std::size_t i) { return &place(i)->reach; });
   const auto p3 = load_rows<S>([&](std::size_t i) { return &place(i)->way_x; });
+  const auto sizes = load_rows<S>([&](std::size_t i) { return &shape(i)->reach; });
   const auto fat = load_rows<S>([&](std::size_t i) { return shape(i)->fat.lower.data(); });
   const auto zero = hn::Zero(Tag<S>());
-  store_rows<S>(pose, [&](std::size_t i) { return &place(i)->x; });
-  store_rows<S>({p2.c0, p2.c1, turn, p2.c3}, [&](std::size_t i) { return &place(i)->reach; });
-  store_rows<S>({way_x, way_y, p3.c2, zero}, [&](std::size_t i) { return &place(i)->way_x; });
-  // A box reaches as far as its corners, anything else no further than the disc around it.
-  const auto c = hn::Abs(pose.c2), s = hn::Abs(pose.c3);
-  const auto box = hn::Gt(p1.c1, zero);
-  const auto extent_x = hn::IfThenElse(box, hn::Add(hn::Mul(c, p1.c0), hn::Mul(s, p1.c1)), extent_max);
-  const auto extent_y = hn::IfThenElse(box, hn::Add(hn::Mul(c, p1.c1), hn::Mul(s, p1.c0)), extent_max);
-  const auto low_x = hn::Sub(hn::Add(hn::Sub(pose.c0, extent_x), smaller(way_x, zero)), p2.c0);
-  const auto low_y = hn::Sub(hn::Add(hn::Sub(pose.c1, extent_y), smaller(way_y, zero)), p2.c0);
-  const auto high_x = hn::Add(hn::Add(hn::Add(pose.c0, extent_x), larger(way_x, zero)), p2.c0);
-  const auto high_y = hn::Add(hn::Add(hn::Add(pose.c1, extent_y), larger(way_y, zero)), p2.c0);
-  return hn::And(hn::And(hn::Ge(low_x, fat.c0), hn::Ge(low_y, fat.c1)),
-                 hn::And(hn::Le(high_x, fat.c2), hn::Le(high_y, fat.c3)));
+  store_rows<S>({to.x, to.y, to.c, to.s}, [&](std::size_t i) { return &place(i)->x; });
+  store_rows<S>({p2.c0, p2.c1, to.turn, p2.c3}, [&](std::size_t i) { return &place(i)->reach; });
+  store_rows<S>({to.way_x, to.way_y, p3.c2, zero}, [&](std::size_t i) { return &place(i)->way_x; });
+  const Extents<S> extents(p1, hn::Abs(p3.c2), to.c, to.s, to.disc, rows_of);
+  const auto low_x = hn::Sub(hn::Add(hn::Add(to.x, extents.low_x), smaller(to.way_x, zero)), sizes.c0);
+  const auto low_y = hn::Sub(hn::Add(hn::Add(to.y, extents.low_y), smaller(to.way_y, zero)), sizes.c0);
+  const auto high_x = hn::Add(hn::Add(hn::Add(to.x, extents.high_x), larger(to.way_x, zero)), sizes.c0);
+  const auto high_y = hn::Add(hn::Add(hn::Add(to.y, extents.high_y), larger(to.way_y, zero)), sizes.c0);
+  const auto inside = hn::And(hn::And(hn::Ge(low_x, fat.c0), hn::Ge(low_y, fat.c1)),
+                              hn::And(hn::Le(high_x, fat.c2), hn::Le(high_y, fat.c3)));
+  const std::uint32_t left = bits_of<S>(hn::Not(inside)) & lanes;
+  if (left == 0) return 0;
+  HWY_ALIGN S bounds[4][kLanes<S>];
+  store(hn::Sub(low_x, sizes.c1), bounds[0]);
+  store(hn::Sub(low_y, sizes.c1), bounds[1]);
+  store(hn::Add(high_x, sizes.c1), bounds[2]);
+  store(hn::Add(high_y, sizes.c1), bounds[3]);
+  for (std::uint32_t rest = left; rest != 0; rest &= rest - 1) {
+    const auto i = static_cast<std::size_t>(__builtin_ctz(rest));
+    S* const box = shape(i)->fat.lower.data();
+    for (int k = 0; k < 4; ++k) box[k] = bounds[k][i];
+  }
+  return left;
 }
 
 // Nobody: what lanes without a body, or bodies without a simple shape, write to.
@@ -191,6 +255,8 @@ struct Nobody {
   Motion<S> motion;
   Place<S> place;
   Shape<S> shape;
+  Convex<S> convex;
+  OutlineRows<S> outline{};
 };
 
 template <class S>
@@ -237,26 +303,66 @@ HWY_INLINE BlockEnd end_vector(const StepEnd<S>& world, const std::uint32_t* slo
   store_rows<S>({zero, zero, one, zero}, [&](std::size_t i) { return &motion(i)->dy; });
 
   const std::uint32_t all = (1u << (count < width ? count : width)) - 1;
-  BlockEnd end{all, bits_of<S>(hn::Ge(sleep_time, set(S(kSleepTime)))) & all};
+  BlockEnd end{simple, 0, bits_of<S>(hn::Ge(sleep_time, set(S(kSleepTime)))) & all};
   if (simple == 0) return end;
   const auto place = [&](std::size_t i) { return proxies[i] != kNone ? &world.places[proxies[i]] : &nobody.place; };
-  const auto shape = [&](std::size_t i) -> const Shape<S>* {
-    return proxies[i] != kNone ? &world.shapes[proxies[i]] : &nobody.shape;
+  const auto shape = [&](std::size_t i) { return proxies[i] != kNone ? &world.shapes[proxies[i]] : &nobody.shape; };
+  const auto rows_of = [&](std::size_t i) {
+    return proxies[i] != kNone ? world.outlines[proxies[i]].rows : nobody.outline.rows;
   };
-  const auto inside = follow_vector<S>(place, shape, {x, y, c, s}, hn::Mul(turning, time_step), hn::Mul(vx, time_step),
-                                       hn::Mul(vy, time_step), extent_max);
-  end.not_followed &= ~(bits_of<S>(inside) & simple);
+  const Following<S> to{x,         y, c, s, hn::Mul(vx, time_step), hn::Mul(vy, time_step), hn::Mul(turning, time_step),
+                        extent_max};
+  end.left = follow_vector<S>(place, shape, rows_of, to, simple);
   return end;
+}
+
+// Of shapes whose bodies have ended their step.
+template <class S>
+HWY_INLINE std::uint32_t follow_shapes(const StepEnd<S>& world, const std::uint32_t* proxies, std::size_t count,
+                                       Nobody<S>& nobody) {
+  const auto shape = [&](std::size_t i) { return i < count ? &world.shapes[proxies[i]] : &nobody.shape; };
+  const auto place = [&](std::size_t i) { return i < count ? &world.places[proxies[i]] : &nobody.place; };
+  const auto rows_of = [&](std::size_t i) { return i < count ? world.outlines[proxies[i]].rows : nobody.outline.rows; };
+  const auto body = [&](std::size_t i) { return i < count ? &world.bodies[shape(i)->body] : &nobody.body; };
+  const auto motion = [&](std::size_t i) { return i < count ? &world.motions[shape(i)->body] : &nobody.motion; };
+  const auto convex = [&](std::size_t i) { return i < count ? &world.convexes[proxies[i]] : &nobody.convex; };
+  const auto m0 = load_rows<S>([&](std::size_t i) { return &motion(i)->vx; });
+  const auto b0 = load_rows<S>([&](std::size_t i) { return &body(i)->x; });
+  const auto b1 = load_rows<S>([&](std::size_t i) { return &body(i)->s; });
+  const auto b4 = load_rows<S>([&](std::size_t i) { return &body(i)->torque; });
+  const auto p1 = load_rows<S>([&](std::size_t i) { return &place(i)->half_width; });
+  const auto middle = load_rows<S>([&](std::size_t i) { return convex(i)->centroid.data(); });
+  const auto c = b0.c3, s = b1.c0, time_step = set(world.time_step);
+  const auto arm_x = hn::Sub(middle.c0, b1.c1), arm_y = hn::Sub(middle.c1, b1.c2);
+  const auto offset_x = hn::Sub(hn::Mul(c, arm_x), hn::Mul(s, arm_y));
+  const auto offset_y = hn::Add(hn::Mul(s, arm_x), hn::Mul(c, arm_y));
+  store_rows<S>({p1.c0, p1.c1, offset_x, offset_y}, [&](std::size_t i) { return &place(i)->half_width; });
+  const auto turn = hn::Mul(hn::Mul(hn::Abs(m0.c2), b4.c2), time_step);
+  const Following<S> to{hn::Add(b0.c0, offset_x),  hn::Add(b0.c1, offset_y),  c,    s,
+                        hn::Mul(m0.c0, time_step), hn::Mul(m0.c1, time_step), turn, b4.c2};
+  const std::uint32_t lanes = (1u << (count < hn::Lanes(Tag<S>()) ? count : hn::Lanes(Tag<S>()))) - 1;
+  return follow_vector<S>(place, shape, rows_of, to, lanes);
+}
+
+template <class S>
+std::uint32_t follow(const StepEnd<S>& world, const std::uint32_t* proxies, std::size_t count) {
+  Nobody<S> nobody;
+  std::uint32_t left = 0;
+  const std::size_t width = hn::Lanes(Tag<S>());
+  for (std::size_t lane = 0; lane < count; lane += width)
+    left |= follow_shapes(world, proxies + lane, count - lane, nobody) << lane;
+  return left;
 }
 
 template <class S>
 BlockEnd end_step(const StepEnd<S>& world, const std::uint32_t* slots, std::size_t count) {
   Nobody<S> nobody;
-  BlockEnd all{0, 0};
+  BlockEnd all{0, 0, 0};
   const std::size_t width = hn::Lanes(Tag<S>());
   for (std::size_t lane = 0; lane < count; lane += width) {
     const BlockEnd end = end_vector(world, slots + lane, count - lane, nobody);
-    all.not_followed |= end.not_followed << lane;
+    all.followed |= end.followed << lane;
+    all.left |= end.left << lane;
     all.restful |= end.restful << lane;
   }
   return all;
@@ -284,7 +390,7 @@ std::uint32_t fast(const Body<S>* bodies, const Motion<S>* motions, const std::u
 }
 
 template <class S>
-constexpr MotionKernels<S> kKernels{integrate_positions<S>, end_step<S>, fast<S>};
+constexpr MotionKernels<S> kKernels{integrate_positions<S>, end_step<S>, follow<S>, fast<S>};
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "physics/body.h"
+#include "physics/narrow_phase/outline.h"
 #include "physics/places.h"
 #include "physics/shape.h"
 
@@ -11,17 +12,21 @@ namespace urto {
 // What bodies, and the places of simple ones, are at the end of a step.
 template <class S>
 struct StepEnd {
-  Body<S>* bodies;         // by slot
-  Motion<S>* motions;      // by slot
-  Place<S>* places;        // by proxy
-  const Shape<S>* shapes;  // by proxy
+  Body<S>* bodies;     // by slot
+  Motion<S>* motions;  // by slot
+  // By proxy:
+  Place<S>* places;
+  Shape<S>* shapes;
+  const Convex<S>* convexes;
+  const OutlineRows<S>* outlines;
   S time_step;
 };
 
 // What was found of the bodies of a block, a bit each.
 struct BlockEnd {
-  std::uint32_t not_followed;  // whose places and bounds nobody looked at, or whose bounds may be left
-  std::uint32_t restful;       // slow for as long as it takes to fall asleep
+  std::uint32_t followed;  // that have one shape in their middle, whose place and bounds are as they shall be
+  std::uint32_t left;      // of those, whose shape has left its bounds and got new ones
+  std::uint32_t restful;   // slow for as long as it takes to fall asleep
 };
 
 // The movement of as many bodies side by side as a block has lanes.
@@ -32,6 +37,9 @@ struct MotionKernels {
   // Takes over the way that bodies came, counts how long they have been slow, and sets the places of those that have
   // one shape in their middle. `count` of at most kLanes.
   BlockEnd (*end_step)(const StepEnd<S>& world, const std::uint32_t* slots, std::size_t count);
+  // The same for shapes of bodies that have ended their step: sets their places, and new bounds where they left theirs,
+  // a bit each. Shapes of dynamic bodies with a kernel of the narrow phase alone. `count` of at most kLanes.
+  std::uint32_t (*follow)(const StepEnd<S>& world, const std::uint32_t* proxies, std::size_t count);
   // A bit each for bodies whose farthest point may have come further than kFastFraction of their least extent, or, if
   // they are kinematic, have moved at all. `count` of at most kLanes.
   std::uint32_t (*fast)(const Body<S>* bodies, const Motion<S>* motions, const std::uint32_t* slots, std::size_t count);

@@ -1,9 +1,25 @@
 #include "physics/places.h"
 
+#include <cmath>
+
+#include "physics/constants.h"
 #include "physics/data.h"
 
 namespace urto {
 namespace {
+
+// m, of the disc around the centroid that holds the shape; 0 if so much of the disc is empty that it says little.
+template <class S>
+S disc_around(const Convex<S>& convex) {
+  S most2 = 0, least = convex.count > 1 ? S(kCoordinateMax) : S(0);
+  for (std::uint32_t i = 0; i < convex.count; ++i) {
+    const Vec<S> arm = convex.vertices[i] - convex.centroid;
+    most2 = max_of(most2, dot(arm, arm));
+    least = min_of(least, dot(convex.normals[i], arm));
+  }
+  const S disc = std::sqrt(most2) + convex.radius;
+  return least + convex.radius > S(kNearlyRound) * disc ? disc : S(0);
+}
 
 template <class S>
 Place<S> place_of(const WorldData<S>& world, const Body<S>& body, const Motion<S>& motion, Proxy proxy) {
@@ -32,7 +48,9 @@ Place<S> place_of(const WorldData<S>& world, const Body<S>& body, const Motion<S
     const Convex<S>& convex = world.convexes[proxy];
     const bool sharp = shape.shape_kind() == ShapeKind::kPolygon && convex.radius == S(0);
     place.half_width = convex.radius;
-    if (sat && !convex.chain_segment()) place.vertices = sharp ? S(convex.count) : -S(convex.count);
+    if (!sat || convex.chain_segment()) return place;
+    place.vertices = sharp ? S(convex.count) : -S(convex.count);
+    place.half_height = -disc_around(convex);
     return place;
   }
   const bool upright = (shape.flags & kShapeUpright) != 0;

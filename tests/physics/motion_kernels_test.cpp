@@ -17,13 +17,15 @@ namespace {
 
 constexpr std::size_t kCount = 37;  // no whole number of blocks at any width
 
-// Bodies with a disc, a centred box, or two shapes, awake and on their way.
+// Bodies with a disc, a box, a rounded triangle, or two shapes, centred or not, awake and on their way.
 template <class S>
 struct Crowd {
   std::vector<Body<S>> bodies{kCount};
   std::vector<Motion<S>> motions{kCount};
   std::vector<Shape<S>> shapes{kCount};
   std::vector<Place<S>> places{kCount};
+  std::vector<Convex<S>> convexes{kCount};
+  std::vector<OutlineRows<S>> outlines{kCount};
   std::vector<std::uint32_t> slots;
 
   explicit Crowd(std::uint32_t seed) {
@@ -46,7 +48,8 @@ struct Crowd {
       body.first_shape = i;
       body.shape_count = random() % 4 == 0 ? 2 : 1;
       set_motion(motions[i], random, any);
-      set_shape(i, random() % 2 == 0, random() % 3 == 0, random() % 2 == 0);
+      const ShapeKind kinds[] = {ShapeKind::kCircle, ShapeKind::kBox, ShapeKind::kPolygon};
+      set_shape(i, kinds[random() % 3], random() % 3 == 0, random() % 2 == 0);
     }
   }
 
@@ -62,17 +65,31 @@ struct Crowd {
     rotation_by(m.da, m.c, m.s);
   }
 
-  void set_shape(std::uint32_t i, bool box, bool off_centre, bool wide) {
+  void set_shape(std::uint32_t i, ShapeKind kind, bool off_centre, bool wide) {
+    const bool box = kind == ShapeKind::kBox, polygon = kind == ShapeKind::kPolygon;
     Shape<S>& shape = shapes[i];
-    shape.kind = static_cast<std::uint32_t>(box ? ShapeKind::kBox : ShapeKind::kCircle);
+    shape.body = i;
+    shape.kind = static_cast<std::uint32_t>(kind);
     shape.flags = kShapeAlive | kShapeUpright | (off_centre ? 0u : kShapeCentred);
+    shape.reach = S(0.02);
+    shape.margin = S(0.1);
     const Vec<S> at(bodies[i].x, bodies[i].y);
     shape.fat = Aabb<S>{at, at}.expanded(wide ? S(2) : S(0.7));
-    places[i].half_width = box ? S(0.4) : S(0.5);
+    Convex<S>& convex = convexes[i];
+    convex.count = polygon ? 3 : 1;
+    if (polygon) {
+      convex.vertices[0] = Vec<S>(S(-0.4), S(-0.2));
+      convex.vertices[1] = Vec<S>(S(0.4), S(-0.2));
+      convex.vertices[2] = Vec<S>(S(0), S(0.4));
+      convex.radius = S(0.05);
+    }
+    if (off_centre) convex.centroid = Vec<S>(S(0.125), S(0.25));
+    outlines[i] = outline_of(convex);
+    places[i].half_width = box ? S(0.4) : polygon ? convex.radius : S(0.5);
     places[i].half_height = box ? S(0.3) : S(0);
-    places[i].reach = S(0.02);
+    places[i].reach = shape.reach;
     places[i].bound = S(0.125);
-    places[i].vertices = box ? S(4) : S(0);
+    places[i].vertices = box ? S(4) : polygon ? S(-3) : S(0);
     places[i].fast = S(1);
   }
 };
@@ -117,19 +134,42 @@ void compare_positions(std::uint32_t seed) {
   for (std::size_t i = 0; i < kCount; ++i) expect_same(crowd.motions[i], expected[i]);
 }
 
+// Of a shape at its place, its body's way to come and its reach included.
 template <class S>
-bool stays_within_bounds(const Crowd<S>& crowd, std::uint32_t slot, S time_step) {
+Aabb<S> swept(const Crowd<S>& crowd, std::uint32_t slot, S time_step) {
   const Body<S>& body = crowd.bodies[slot];
   const Motion<S>& m = crowd.motions[slot];
   const Place<S>& place = crowd.places[slot];
   const S c = absolute(body.c), s = absolute(body.s);
   const bool box = place.half_height > S(0);
-  const Vec<S> extent(box ? c * place.half_width + s * place.half_height : body.extent_max,
-                      box ? c * place.half_height + s * place.half_width : body.extent_max);
-  Aabb<S> bounds{body.center() - extent, body.center() + extent};
+  Vec<S> high(box ? c * place.half_width + s * place.half_height : body.extent_max,
+              box ? c * place.half_height + s * place.half_width : body.extent_max);
+  Vec<S> low = -high;
+  if (place.vertices < S(0)) {
+    low = high = body.rotation().apply(crowd.convexes[slot].vertices[0] - crowd.convexes[slot].centroid);
+    for (int k = 1; k < 3; ++k) {
+      const Vec<S> v = body.rotation().apply(crowd.convexes[slot].vertices[k] - crowd.convexes[slot].centroid);
+      low = low.cwiseMin(v);
+      high = high.cwiseMax(v);
+    }
+    low -= Vec<S>::Constant(place.half_width);
+    high += Vec<S>::Constant(place.half_width);
+  }
+  const Vec<S> center(place.x, place.y);
+  Aabb<S> bounds{center + low, center + high};
   (m.vx < S(0) ? bounds.lower : bounds.upper).x() += m.vx * time_step;
   (m.vy < S(0) ? bounds.lower : bounds.upper).y() += m.vy * time_step;
-  return crowd.shapes[slot].fat.contains(bounds.expanded(place.reach));
+  return bounds.expanded(place.reach);
+}
+
+// A shape's bounds are as they were if they hold it, else they are new ones.
+template <class S>
+void expect_followed(const Crowd<S>& crowd, const Crowd<S>& before, std::uint32_t slot, bool left, S time_step) {
+  const Aabb<S> bounds = swept(crowd, slot, time_step), &fat = crowd.shapes[slot].fat, &old = before.shapes[slot].fat;
+  EXPECT_EQ(left, !old.contains(bounds)) << "slot " << slot;
+  const Aabb<S> wanted = left ? bounds.expanded(crowd.shapes[slot].margin) : old;
+  EXPECT_EQ(fat.lower, wanted.lower) << "slot " << slot;
+  EXPECT_EQ(fat.upper, wanted.upper) << "slot " << slot;
 }
 
 template <class S>
@@ -144,7 +184,13 @@ void compare_end(std::uint32_t seed) {
   const S time_step = S(1.0 / 60);
   Crowd<S> crowd(seed), expected(seed);
   for (std::size_t i = 0; i < kCount; ++i) end_one(expected.bodies[i], expected.motions[i], time_step);
-  const StepEnd<S> ends{crowd.bodies.data(), crowd.motions.data(), crowd.places.data(), crowd.shapes.data(), time_step};
+  const StepEnd<S> ends{crowd.bodies.data(),
+                        crowd.motions.data(),
+                        crowd.places.data(),
+                        crowd.shapes.data(),
+                        crowd.convexes.data(),
+                        crowd.outlines.data(),
+                        time_step};
   for (std::size_t first = 0; first < kCount; first += kBlock) {
     const std::size_t count = std::min(kBlock, kCount - first);
     const BlockEnd end = motion_kernels<S>().end_step(ends, &crowd.slots[first], count);
@@ -156,9 +202,9 @@ void compare_end(std::uint32_t seed) {
                                &Body<S>::sleep_time, &Body<S>::extent_max, &Body<S>::local_x})
         EXPECT_EQ(body.*field, wanted.*field) << "slot " << slot;
       EXPECT_EQ((end.restful >> lane & 1u) != 0, wanted.sleep_time >= S(kSleepTime));
-      const bool followed = simple(crowd, slot) && stays_within_bounds(crowd, slot, time_step);
-      EXPECT_EQ((end.not_followed >> lane & 1u) == 0, followed) << "slot " << slot;
+      EXPECT_EQ((end.followed >> lane & 1u) != 0, simple(crowd, slot)) << "slot " << slot;
       if (!simple(crowd, slot)) continue;
+      expect_followed(crowd, expected, slot, (end.left >> lane & 1u) != 0, time_step);
       const Place<S>& place = crowd.places[slot];
       EXPECT_EQ(place.x, body.x);
       EXPECT_EQ(place.s, body.s);
@@ -166,6 +212,44 @@ void compare_end(std::uint32_t seed) {
       EXPECT_EQ(place.turn, absolute(expected.motions[slot].w) * body.extent_max * time_step);
       EXPECT_EQ(place.fast, S(0));
       EXPECT_EQ(place.bound, S(0.125));
+    }
+  }
+}
+
+// Shapes of which a body may have several, or one beside its middle.
+template <class S>
+void compare_follow(std::uint32_t seed) {
+  constexpr std::size_t kBlock = static_cast<std::size_t>(kLanes<S>);
+  const S time_step = S(1.0 / 60);
+  Crowd<S> crowd(seed);
+  const Crowd<S> before(seed);
+  const StepEnd<S> ends{crowd.bodies.data(),
+                        crowd.motions.data(),
+                        crowd.places.data(),
+                        crowd.shapes.data(),
+                        crowd.convexes.data(),
+                        crowd.outlines.data(),
+                        time_step};
+  std::vector<std::uint32_t> proxies;
+  for (const std::uint32_t slot : crowd.slots)
+    if (crowd.bodies[slot].dynamic() && crowd.places[slot].vertices != S(0)) proxies.push_back(slot);
+  for (std::size_t first = 0; first < proxies.size(); first += kBlock) {
+    const std::size_t count = std::min(kBlock, proxies.size() - first);
+    const std::uint32_t left = motion_kernels<S>().follow(ends, &proxies[first], count);
+    EXPECT_EQ(left >> count, 0u);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const std::uint32_t slot = proxies[first + lane];
+      const Body<S>& body = crowd.bodies[slot];
+      const Place<S>& place = crowd.places[slot];
+      const Vec<S> offset = body.rotation().apply(crowd.convexes[slot].centroid - body.local_center());
+      EXPECT_EQ(place.offset_x, offset.x());
+      EXPECT_EQ(place.offset_y, offset.y());
+      EXPECT_EQ(place.x, body.x + offset.x());
+      EXPECT_EQ(place.y, body.y + offset.y());
+      EXPECT_EQ(place.turn, absolute(crowd.motions[slot].w) * body.extent_max * time_step);
+      EXPECT_EQ(place.half_height, before.places[slot].half_height);
+      EXPECT_EQ(place.fast, S(0));
+      expect_followed(crowd, before, slot, (left >> lane & 1u) != 0, time_step);
     }
   }
 }
@@ -198,6 +282,8 @@ TEST(MotionKernelsTest, MoveAsOneBodyAfterTheOtherAtEveryWidth) {
       compare_positions<double>(seed);
       compare_end<float>(seed);
       compare_end<double>(seed);
+      compare_follow<float>(seed);
+      compare_follow<double>(seed);
       compare_fast<float>(seed);
       compare_fast<double>(seed);
     }

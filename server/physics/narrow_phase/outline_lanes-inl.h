@@ -80,7 +80,8 @@ struct BestFace {
  private:
   static HWY_INLINE Vector<S> separation_from(const Outlines<S>& a, const Outlines<S>& b, int i) {
     auto least = dot<S>(a.normals[i], b.vertices[0]);
-    for (int j = 1; j < b.most; ++j) least = smaller(least, dot<S>(a.normals[i], b.vertices[j]));
+    // Min may give a zero of another sign on another machine; separations of faces are only compared.
+    for (int j = 1; j < b.most; ++j) least = hn::Min(least, dot<S>(a.normals[i], b.vertices[j]));
     return hn::Sub(least, dot<S>(a.normals[i], a.vertices[i]));
   }
 };

@@ -2,6 +2,8 @@
 // a system header is left out of the dependencies that the compiler writes.
 #include "physics/narrow_phase/polygon_kernels.h"
 
+#include <type_traits>
+
 #include "physics/constants.h"
 #include "physics/narrow_phase/manifold.h"
 #include "physics/simd/targets.h"
@@ -19,17 +21,17 @@ namespace urto {
 namespace HWY_NAMESPACE {
 namespace {
 
-template <class S>
-HWY_INLINE void collide_vector(const Place<S>* places, const OutlineRows<S>* outlines, const std::uint32_t* proxies_a,
-                               const std::uint32_t* proxies_b, std::size_t lane, ManifoldLanes<S>& out) {
+// kVertices: that many or fewer have all outlines here. Known to the compiler, it unrolls what goes around them.
+template <class S, int kVertices>
+HWY_INLINE void collide_outlines(const PlaceLanes<S>& a, const PlaceLanes<S>& b, const OutlineRows<S>* outlines,
+                                 const std::uint32_t* proxies_a, const std::uint32_t* proxies_b, std::size_t lane,
+                                 ManifoldLanes<S>& out) {
   const auto zero = hn::Zero(Tag<S>()), one = set(S(1)), half_of = set(S(0.5));
-  store(zero, out.count + lane);
-  const PlaceLanes<S> a(places, proxies_a + lane), b(places, proxies_b + lane);
   const auto reach = reach_of(a, b);
   const Pair<S> between = minus<S>(b.center, a.center);
   // Everything in a's axes, from a's centroid.
-  const Outlines<S> outline_a(outlines, proxies_a + lane, a.vertices, most_of<S>(a.vertices, 3));
-  Outlines<S> outline_b(outlines, proxies_b + lane, b.vertices, most_of<S>(b.vertices, 3));
+  const Outlines<S> outline_a(outlines, proxies_a + lane, a.vertices, kVertices);
+  Outlines<S> outline_b(outlines, proxies_b + lane, b.vertices, kVertices);
   outline_b.place(rotated_back<S>(a.axis, b.axis), rotated_back<S>(a.axis, between));
   const BestFace<S> fa(outline_a, outline_b), fb(outline_b, outline_a);
   const auto near = hn::And(hn::Le(fa.separation, reach), hn::Le(fb.separation, reach));
@@ -88,6 +90,22 @@ HWY_INLINE void collide_vector(const Place<S>* places, const OutlineRows<S>* out
   store(q_id, out.id[1] + lane);
   const auto count = hn::Add(hn::IfThenElseZero(any, one), hn::IfThenElseZero(both, one));
   store(hn::IfThenElse(ask, set(S(kAskGeneral)), count), out.count + lane);
+}
+
+template <class S>
+HWY_INLINE void collide_vector(const Place<S>* places, const OutlineRows<S>* outlines, const std::uint32_t* proxies_a,
+                               const std::uint32_t* proxies_b, std::size_t lane, ManifoldLanes<S>& out) {
+  store(hn::Zero(Tag<S>()), out.count + lane);
+  const PlaceLanes<S> a(places, proxies_a + lane), b(places, proxies_b + lane);
+  const int most = most_of<S>(larger(a.vertices, b.vertices), 3);
+  const auto collide = [&](auto vertices) HWY_ATTR {
+    collide_outlines<S, decltype(vertices)::value>(a, b, outlines, proxies_a, proxies_b, lane, out);
+  };
+  if (most == 3) return collide(std::integral_constant<int, 3>());
+  if (most == 4) return collide(std::integral_constant<int, 4>());
+  if (most == 5) return collide(std::integral_constant<int, 5>());
+  if (most == 6) return collide(std::integral_constant<int, 6>());
+  collide(std::integral_constant<int, kMost>());
 }
 
 template <class S>
