@@ -26,6 +26,13 @@ struct Motion {
   S c = 1, s = 0;            // rotation by da
 };
 
+// What the impulses of the sub-step before will add to a body's velocities when they are applied again.
+template <class S>
+struct Kick {
+  S vx = 0, vy = 0, w = 0;  // m/s, rad/s
+  S unused = 0;             // rows are of four
+};
+
 // Everything else of a body. Records have no padding: the state is hashed as it lies in memory.
 template <class S>
 struct Body {

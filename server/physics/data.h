@@ -60,6 +60,7 @@ struct Scratch {
   std::vector<std::uint32_t> parent;                // union-find, by body slot
   std::vector<std::uint8_t> rest, kept_awake;       // by body slot, see sleep.cpp
   std::vector<Vec<S>> pulls;                        // m/s, by awake index
+  std::vector<Kick<S>> kicks;                       // by body slot; all zero between steps
   std::vector<std::uint32_t> stretched;             // body slots, see continuous.h
   std::vector<std::uint32_t> parted, met;           // contact slots
   std::vector<std::uint8_t> findings;               // by index of active contact

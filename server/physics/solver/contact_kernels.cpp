@@ -20,6 +20,19 @@ namespace urto {
 namespace HWY_NAMESPACE {
 namespace {
 
+// The first rows of what bodies have. Those that cannot move are left alone: other lanes may hold them too. In most
+// vectors all can, or none.
+template <class S, class Record>
+HWY_INLINE void store_movable(const Columns<S>& m, Record* records, const std::uint32_t* slots, std::uint32_t movable) {
+  const std::uint32_t all = (1u << hn::Lanes(Tag<S>())) - 1;
+  if ((movable & all) == all) {
+    store_rows<S>(m, [&](std::size_t i) { return &records[slots[i]].vx; });
+  } else if ((movable & all) != 0) {
+    Record nowhere;
+    store_rows<S>(m, [&](std::size_t i) { return (movable >> i) & 1u ? &records[slots[i]].vx : &nowhere.vx; });
+  }
+}
+
 // The velocities and the ways of a few lanes' bodies.
 template <class S>
 struct Bodies {
@@ -40,16 +53,8 @@ struct Bodies {
     im = load(inv_mass);
     ii = load(inv_inertia);
   }
-  // Bodies that cannot move are left alone: other lanes may hold them too. In most vectors all can, or none.
   HWY_INLINE void store_to(Motion<S>* motions, const std::uint32_t* slots, std::uint32_t movable) const {
-    const std::uint32_t all = (1u << hn::Lanes(Tag<S>())) - 1;
-    if ((movable & all) == all) {
-      store_rows<S>({vx, vy, w, dx}, [&](std::size_t i) { return &motions[slots[i]].vx; });
-    } else if ((movable & all) != 0) {
-      Motion<S> nowhere;
-      store_rows<S>({vx, vy, w, dx},
-                    [&](std::size_t i) { return (movable >> i) & 1u ? &motions[slots[i]].vx : &nowhere.vx; });
-    }
+    store_movable<S>({vx, vy, w, dx}, motions, slots, movable);
   }
 };
 
@@ -167,6 +172,26 @@ struct TwoImpulses {
   V first, second;
 };
 
+template <class S>
+struct PointImpulses {
+  TwoImpulses<Vector<S>> normal, tangent;
+};
+
+// The directions in which both points of a manifold push.
+template <class S>
+struct Points {
+  Arms<S> r1, r2;
+  Direction<S> n1, n2, t1, t2;
+
+  HWY_INLINE explicit Points(const Lanes<S>& k)
+      : r1(k, k.block.points[0]),
+        r2(k, k.block.points[1]),
+        n1(normal_of(k, r1)),
+        n2(normal_of(k, r2)),
+        t1(tangent_of(k, r1)),
+        t2(tangent_of(k, r2)) {}
+};
+
 // Impulses at both points along parallel directions, on the bodies' spins and on what is pushed along those.
 template <class S>
 HWY_INLINE void push(Lanes<S>& k, const Direction<S>& p, const Direction<S>& q, const TwoImpulses<Vector<S>>& impulses,
@@ -174,6 +199,28 @@ HWY_INLINE void push(Lanes<S>& k, const Direction<S>& p, const Direction<S>& q, 
   pushed = hn::Add(pushed, hn::Add(impulses.first, impulses.second));
   k.a.w = hn::Sub(k.a.w, hn::Add(hn::Mul(p.turn_a, impulses.first), hn::Mul(q.turn_a, impulses.second)));
   k.b.w = hn::Add(k.b.w, hn::Add(hn::Mul(p.turn_b, impulses.first), hn::Mul(q.turn_b, impulses.second)));
+}
+
+// The same impulses once more, on what the bodies' next sub-step begins with; or less.
+template <class S>
+HWY_INLINE void kick(const Lanes<S>& k, const Points<S>& at, const PointImpulses<S>& i, Kick<S>* kicks) {
+  const auto along = hn::Add(i.normal.first, i.normal.second), across = hn::Add(i.tangent.first, i.tangent.second);
+  const auto px = hn::Add(hn::Mul(along, k.nx), hn::Mul(across, k.ny));
+  const auto py = hn::Sub(hn::Mul(along, k.ny), hn::Mul(across, k.nx));
+  const auto turned = [&](Vector<S> Direction<S>::*turn) HWY_ATTR {
+    const auto by_normals = hn::Add(hn::Mul(at.n1.*turn, i.normal.first), hn::Mul(at.n2.*turn, i.normal.second));
+    const auto by_tangents = hn::Add(hn::Mul(at.t1.*turn, i.tangent.first), hn::Mul(at.t2.*turn, i.tangent.second));
+    return hn::Add(by_normals, by_tangents);
+  };
+  const std::uint32_t *a = k.block.a + k.lane, *b = k.block.b + k.lane;
+  const auto of_a = load_rows<S>([&](std::size_t lane) { return &kicks[a[lane]].vx; });
+  const auto of_b = load_rows<S>([&](std::size_t lane) { return &kicks[b[lane]].vx; });
+  store_movable<S>({hn::Sub(of_a.c0, hn::Mul(k.a.im, px)), hn::Sub(of_a.c1, hn::Mul(k.a.im, py)),
+                    hn::Sub(of_a.c2, turned(&Direction<S>::turn_a)), of_a.c3},
+                   kicks, a, k.block.movable_a >> k.lane);
+  store_movable<S>({hn::Add(of_b.c0, hn::Mul(k.b.im, px)), hn::Add(of_b.c1, hn::Mul(k.b.im, py)),
+                    hn::Add(of_b.c2, turned(&Direction<S>::turn_b)), of_b.c3},
+                   kicks, b, k.block.movable_b >> k.lane);
 }
 
 // Taking over manifolds -------------------------------------------------------------------------------------------
@@ -270,11 +317,9 @@ void take(const Motion<S>* motions, const ManifoldLanes<S>& manifolds, ContactBl
 template <class S>
 HWY_INLINE void warm_start_lanes(Lanes<S>& k) {
   const PointLanes<S>&p = k.block.points[0], &q = k.block.points[1];
-  const Arms<S> rp(k, p), rq(k, q);
-  push<S>(k, normal_of(k, rp), normal_of(k, rq), {load(p.normal_impulse + k.lane), load(q.normal_impulse + k.lane)},
-          k.push_along);
-  push<S>(k, tangent_of(k, rp), tangent_of(k, rq), {load(p.tangent_impulse + k.lane), load(q.tangent_impulse + k.lane)},
-          k.push_across);
+  const Points<S> at(k);
+  push<S>(k, at.n1, at.n2, {load(p.normal_impulse + k.lane), load(q.normal_impulse + k.lane)}, k.push_along);
+  push<S>(k, at.t1, at.t2, {load(p.tangent_impulse + k.lane), load(q.tangent_impulse + k.lane)}, k.push_across);
 }
 
 // m, of a point's surfaces now, negative if they overlap.
@@ -373,8 +418,8 @@ HWY_INLINE TwoImpulses<Vector<S>> solve_normals(const Lanes<S>& k, const Arms<S>
   return solve_two<S>(k11, n.coupling, k22, q1, q2);
 }
 
-// N·s: points that pushed less than this share friction evenly.
-constexpr double kImpulseLeast = 1e-30;
+// N·s: a bound of friction below this is none.
+constexpr double kFrictionMin = 1e-30;
 
 // λ where surfaces slide at `speed` over each other, within ±bound.
 template <class S>
@@ -383,56 +428,51 @@ HWY_INLINE Vector<S> solve_friction(Vector<S> before, Vector<S> mass, Vector<S> 
 }
 
 // Normal impulses, then friction. Both points slide along one line, so it is one equation, at the middle of the
-// normal impulses they had, and they share what it gives as they shared those: neither comes first, and a mirror image
+// two bounds, and they share what it gives as they share the bound: neither comes first, and a mirror image
 // gets the same bits. Friction sees what the normal impulses have done through how the directions are coupled and not
 // through the bodies: that much shorter is the chain of operations that have to wait for each other, and that chain,
 // not their number, is what a pass costs.
 template <class S, bool kUseBias, class Bound>
-HWY_INLINE TwoImpulses<Vector<S>> solve_points(Lanes<S>& k, const PassSettings<S>& settings, const Bound& bound) {
+HWY_INLINE PointImpulses<S> solve_points(Lanes<S>& k, const Points<S>& at, const PassSettings<S>& settings,
+                                         const Bound& bound) {
   PointLanes<S>&p1 = k.block.points[0], &p2 = k.block.points[1];
-  const Arms<S> r1(k, p1), r2(k, p2);
-  const Direction<S> n1 = normal_of(k, r1), n2 = normal_of(k, r2);
   const NormalPoints<S> n(k);
-  const auto next = solve_normals<S, kUseBias>(k, r1, r2, n, settings);
+  const auto next = solve_normals<S, kUseBias>(k, at.r1, at.r2, n, settings);
+  TwoImpulses<Vector<S>> tangent{load(p1.tangent_impulse + k.lane), load(p2.tangent_impulse + k.lane)};
   const TwoImpulses<Vector<S>> d{hn::Sub(next.first, n.before.first), hn::Sub(next.second, n.before.second)};
   store(next.first, p1.normal_impulse + k.lane);
   store(next.second, p2.normal_impulse + k.lane);
   if (settings.friction) {
-    const Direction<S> t1 = tangent_of(k, r1), t2 = tangent_of(k, r2);
     const auto friction = load(k.block.friction + k.lane);
     const auto bound_1 = hn::Mul(friction, bound(p1, n.before.first, next.first));
     const auto bound_2 = hn::Mul(friction, bound(p2, n.before.second, next.second));
     const auto bounds = hn::Add(bound_1, bound_2);
-    const auto least = set(S(kImpulseLeast));
-    const auto there = hn::Lt(load(p2.separation + k.lane), set(S(kFarSeparation)));
-    const auto weight_1 = hn::Add(n.before.first, least);
-    const auto weight_2 = hn::Add(n.before.second, hn::IfThenElseZero(there, least));
-    const auto inverse = hn::Div(set(S(1)), hn::Add(weight_1, weight_2));
-    const auto share_1 = hn::Mul(weight_1, inverse), share_2 = hn::Mul(weight_2, inverse);
+    const auto inverse = hn::Div(set(S(1)), larger(bounds, set(S(kFrictionMin))));
+    const auto share_1 = hn::Mul(bound_1, inverse), share_2 = hn::Mul(bound_2, inverse);
     const auto mean = [&](auto first, auto second)
                           HWY_ATTR { return hn::Add(hn::Mul(share_1, first), hn::Mul(share_2, second)); };
-    const Direction<S> t(k, mean(t1.arm_a, t2.arm_a), mean(t1.arm_b, t2.arm_b));
-    const auto by_normals = hn::Add(hn::Mul(coupling(n1, t), d.first), hn::Mul(coupling(n2, t), d.second));
+    const Direction<S> t(k, mean(at.t1.arm_a, at.t2.arm_a), mean(at.t1.arm_b, at.t2.arm_b));
+    const auto by_normals = hn::Add(hn::Mul(coupling(at.n1, t), d.first), hn::Mul(coupling(at.n2, t), d.second));
     const auto speed = hn::Add(sliding_speed(k, t), by_normals);
     const auto mass = mean(load(p1.tangent_mass + k.lane), load(p2.tangent_mass + k.lane));
-    const auto before_1 = load(p1.tangent_impulse + k.lane), before_2 = load(p2.tangent_impulse + k.lane);
-    const auto both = solve_friction<S>(hn::Add(before_1, before_2), mass, speed, bounds);
-    const auto next_1 = hn::Mul(share_1, both), next_2 = hn::Mul(share_2, both);
-    store(next_1, p1.tangent_impulse + k.lane);
-    store(next_2, p2.tangent_impulse + k.lane);
-    push<S>(k, t1, t2, {hn::Sub(next_1, before_1), hn::Sub(next_2, before_2)}, k.push_across);
+    const auto before = tangent;
+    const auto both = solve_friction<S>(hn::Add(before.first, before.second), mass, speed, bounds);
+    tangent = {hn::Mul(share_1, both), hn::Mul(share_2, both)};
+    store(tangent.first, p1.tangent_impulse + k.lane);
+    store(tangent.second, p2.tangent_impulse + k.lane);
+    push<S>(k, at.t1, at.t2, {hn::Sub(tangent.first, before.first), hn::Sub(tangent.second, before.second)},
+            k.push_across);
   }
-  push<S>(k, n1, n2, d, k.push_along);
-  return next;
+  push<S>(k, at.n1, at.n2, d, k.push_along);
+  return {next, tangent};
 }
 
 // The normal impulse of the step so far.
 template <class S>
-HWY_INLINE Vector<S> add_to_totals(const Lanes<S>& k, PointLanes<S>& p, Vector<S> normal) {
+HWY_INLINE Vector<S> add_to_totals(const Lanes<S>& k, PointLanes<S>& p, Vector<S> normal, Vector<S> tangent) {
   const auto total = hn::Add(load(p.total_normal_impulse + k.lane), normal);
   store(total, p.total_normal_impulse + k.lane);
-  store(hn::Add(load(p.total_tangent_impulse + k.lane), load(p.tangent_impulse + k.lane)),
-        p.total_tangent_impulse + k.lane);
+  store(hn::Add(load(p.total_tangent_impulse + k.lane), tangent), p.total_tangent_impulse + k.lane);
   return total;
 }
 
@@ -492,18 +532,18 @@ void note_approach(const Motion<S>* motions, ContactBlock<S>* blocks, ContactBlo
 // Newton's restitution for a contact that was hit in this sub-step: each point that was to bounce and pushed leaves at
 // its speed; the others must only not close in. The blow is over: nothing of it is a start for the next sub-step.
 template <class S>
-HWY_INLINE void restitute_lanes(Lanes<S>& k, const ContactBlockRest<S>& rest) {
+HWY_INLINE void restitute_lanes(Lanes<S>& k, const ContactBlockRest<S>& rest, Kick<S>* kicks) {
   const auto zero = hn::Zero(Tag<S>());
   PointLanes<S>&p1 = k.block.points[0], &p2 = k.block.points[1];
-  const Arms<S> r1(k, p1), r2(k, p2);
+  const Points<S> at(k);
   const NormalPoints<S> n(k);
   const auto u1 = hn::IfThenElseZero(hn::Gt(n.before.first, zero), load(rest.bounce[0] + k.lane));
   const auto u2 = hn::IfThenElseZero(hn::Gt(n.before.second, zero), load(rest.bounce[1] + k.lane));
   const auto bounces = hn::Or(hn::Gt(u1, zero), hn::Gt(u2, zero));
   // A point that is not there keeps far below what would make it push.
   const auto there = hn::Lt(load(p2.separation + k.lane), set(S(kFarSeparation)));
-  const auto q1 = hn::Add(n.wanted_1(normal_speed(k, r1)), u1);
-  const auto q2 = hn::IfThenElse(there, hn::Add(n.wanted_2(normal_speed(k, r2)), u2), set(S(-kFarSeparation)));
+  const auto q1 = hn::Add(n.wanted_1(normal_speed(k, at.r1)), u1);
+  const auto q2 = hn::IfThenElse(there, hn::Add(n.wanted_2(normal_speed(k, at.r2)), u2), set(S(-kFarSeparation)));
   const auto next = solve_two<S>(n.m1, n.coupling, n.m2, q1, q2);
   const auto bounce = [&](PointLanes<S>& p, auto after, auto before) HWY_ATTR {
     const auto impulse = hn::IfThenElseZero(bounces, hn::Sub(after, before));
@@ -512,8 +552,13 @@ HWY_INLINE void restitute_lanes(Lanes<S>& k, const ContactBlockRest<S>& rest) {
     store(hn::IfThenZeroElse(bounces, load(p.tangent_impulse + k.lane)), p.tangent_impulse + k.lane);
     return impulse;
   };
+  const auto taken_back = [&](auto impulse) HWY_ATTR { return hn::IfThenElseZero(bounces, hn::Neg(impulse)); };
+  const PointImpulses<S> less{
+      {taken_back(n.before.first), taken_back(n.before.second)},
+      {taken_back(load(p1.tangent_impulse + k.lane)), taken_back(load(p2.tangent_impulse + k.lane))}};
   const auto first = bounce(p1, next.first, n.before.first), second = bounce(p2, next.second, n.before.second);
-  push<S>(k, normal_of(k, r1), normal_of(k, r2), {first, second}, k.push_along);
+  push<S>(k, at.n1, at.n2, {first, second}, k.push_along);
+  if (kicks != nullptr) kick(k, at, less, kicks);
 }
 
 // Calls work(lanes) for each vector of each block, in order, and writes velocities back.
@@ -547,9 +592,9 @@ HWY_INLINE Vector<S> without_shock(const Lanes<S>& k, const PointLanes<S>& p, Ve
 template <class S>
 void solve(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const PassSettings<S>& settings) {
   for_each_vector<S>(motions, blocks, count, [&settings](Lanes<S>& k) HWY_ATTR {
-    solve_points<S, true>(k, settings, [&k](const PointLanes<S>& p, Vector<S> before, Vector<S> now) HWY_ATTR {
-      return without_shock(k, p, before, now);
-    });
+    solve_points<S, true>(k, Points<S>(k), settings,
+                          [&k](const PointLanes<S>& p, Vector<S> before, Vector<S> now)
+                              HWY_ATTR { return without_shock(k, p, before, now); });
   });
 }
 
@@ -558,23 +603,30 @@ void solve(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const
 template <class S, bool kLast>
 void relax(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const PassSettings<S>& settings) {
   for_each_vector<S>(motions, blocks, count, [&settings](Lanes<S>& k) HWY_ATTR {
-    const auto normals = solve_points<S, false>(
-        k, settings, [](const PointLanes<S>&, Vector<S>, Vector<S> now) HWY_ATTR { return now; });
+    const Points<S> at(k);
+    const auto now = solve_points<S, false>(
+        k, at, settings, [](const PointLanes<S>&, Vector<S>, Vector<S> normal) HWY_ATTR { return normal; });
     PointLanes<S>&p1 = k.block.points[0], &p2 = k.block.points[1];
-    const TwoImpulses<Vector<S>> totals{add_to_totals(k, p1, normals.first), add_to_totals(k, p2, normals.second)};
-    if (kLast) follow_loads(k, totals, settings);
+    const TwoImpulses<Vector<S>> totals{add_to_totals(k, p1, now.normal.first, now.tangent.first),
+                                        add_to_totals(k, p2, now.normal.second, now.tangent.second)};
+    if (kLast) {
+      follow_loads(k, totals, settings);
+    } else {
+      kick(k, at, now, settings.kicks);
+    }
   });
 }
 
 template <class S>
-void restitute(Motion<S>* motions, ContactBlock<S>* blocks, const ContactBlockRest<S>* rest, std::size_t count) {
+void restitute(Motion<S>* motions, ContactBlock<S>* blocks, const ContactBlockRest<S>* rest, std::size_t count,
+               Kick<S>* kicks) {
   const std::size_t width = hn::Lanes(Tag<S>());
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t lane = 0; lane < blocks[i].count; lane += width) {
       const auto fastest = larger(load(rest[i].bounce[0] + lane), load(rest[i].bounce[1] + lane));
       if (hn::AllFalse(Tag<S>(), hn::Gt(fastest, hn::Zero(Tag<S>())))) continue;
       Lanes<S> k(motions, blocks[i], lane);
-      restitute_lanes(k, rest[i]);
+      restitute_lanes(k, rest[i], kicks);
       k.store_to(motions);
     }
   }

@@ -23,6 +23,7 @@ struct PassSettings {
   S preload_rate;    // share of the way to the mean impulse per step
   S threshold;       // m/s, of restitution
   bool friction;
+  Kick<S>* kicks;  // by body slot
 };
 
 template <class S>
@@ -32,15 +33,17 @@ struct ContactPasses {
   // Takes over new manifolds: impulses are carried over by feature id; masses, coupling and approach speeds follow.
   void (*take)(const Motion<S>* motions, const ManifoldLanes<S>& manifolds, ContactBlock<S>& block,
                ContactBlockRest<S>& rest);
-  Pass warm_start;  // applies the impulses of the last sub-step
+  Pass warm_start;  // applies the impulses of the last step
   Pass solve;       // with bias: pushes overlap apart
-  Pass relax;       // without; also keeps the totals
-  Pass relax_last;  // in the last sub-step: also lets the preloads follow
+  Pass relax;       // without; also keeps the totals, and adds to the kicks
+  Pass relax_last;  // in the last sub-step, which gives no kicks: lets the preloads follow instead
   // Before forces act and after: finds how fast points that close in have to leave.
   using Note = void (*)(const Motion<S>* motions, ContactBlock<S>* blocks, ContactBlockRest<S>* rest, std::size_t count,
                         const PassSettings<S>& settings);
   Note note_approach, note_bounce;
-  void (*restitute)(Motion<S>* motions, ContactBlock<S>* blocks, const ContactBlockRest<S>* rest, std::size_t count);
+  // Takes back the kicks of what bounces, if there are any.
+  void (*restitute)(Motion<S>* motions, ContactBlock<S>* blocks, const ContactBlockRest<S>* rest, std::size_t count,
+                    Kick<S>* kicks);
   // Bit mask of the used lanes whose surfaces meet or push. A point that is not there does neither.
   std::uint32_t (*meeting)(const ContactBlock<S>& block, const ContactBlockRest<S>& rest);
 };

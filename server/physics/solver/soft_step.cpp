@@ -52,14 +52,33 @@ std::size_t grain_of_solve(const WorldData<S>& world, std::size_t grain) {
   return work >= kBodiesToShareSolve ? grain : work;
 }
 
+// The impulses of the last sub-step once more, by body: what the pass over the contacts would do again.
 template <class S>
+void take_kick(Motion<S>& m, Kick<S>& kick) {
+  m.vx += kick.vx;
+  m.vy += kick.vy;
+  m.w += kick.w;
+  kick = {};
+}
+
+template <class S, bool kKick>
 void pull_bodies(WorldData<S>& world, std::size_t grain) {
   world.team->share(world.awake.size(), grain, [&](unsigned, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      Motion<S>& m = world.motions[world.awake[i]];
+      const std::uint32_t slot = world.awake[i];
+      Motion<S>& m = world.motions[slot];
       m.vx += world.scratch.pulls[i].x();
       m.vy += world.scratch.pulls[i].y();
+      if (kKick) take_kick(m, world.scratch.kicks[slot]);
     }
+  });
+}
+
+template <class S>
+void kick_bodies(WorldData<S>& world, std::size_t grain) {
+  world.team->share(world.awake.size(), grain, [&](unsigned, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      take_kick(world.motions[world.awake[i]], world.scratch.kicks[world.awake[i]]);
   });
 }
 
@@ -94,7 +113,7 @@ void integrate_positions(WorldData<S>& world, const Mover<S>& mover, S h, std::s
 }
 
 template <class S>
-PassSettings<S> pass_settings(const WorldData<S>& world, S h, S stiffer) {
+PassSettings<S> pass_settings(WorldData<S>& world, S h, S stiffer) {
   const S hertz = stiffer * min_of(S(kContactHertz), S(kContactHertzPerSubStepRate) / h);
   const Softness<S> soft(hertz, S(kContactDampingRatio), h);
   return {S(1) / h,
@@ -103,7 +122,8 @@ PassSettings<S> pass_settings(const WorldData<S>& world, S h, S stiffer) {
           S(1) / S(world.settings.sub_steps),
           min_of(S(1), S(world.settings.time_step / kPreloadTime)),
           S(world.settings.restitution_threshold),
-          world.model.friction};
+          world.model.friction,
+          world.scratch.kicks.data()};
 }
 
 // Gauss-Seidel favours what it solves last; were that always the same side, a pile would lean over to it. So the
@@ -147,6 +167,7 @@ void solve_soft_step(WorldData<S>& world, JointSet<S>& joint_set) {
   const bool pulled = only_gravity_acts(world, mover);
   const std::size_t body_grain = grain_of_solve(world, kBodiesPerShare);
   const std::size_t block_grain = grain_of_solve(world, kBlocksPerPassShare);
+  world.scratch.kicks.resize(world.bodies.size());
   const PassSettings<S> between = pass_settings(world, h, S(1));
   const PassSettings<S> on_ground = pass_settings(world, h, S(kGroundStiffness));
   const ContactPasses<S>&passes = contact_passes<S>(), &half = half_passes<S>();
@@ -165,16 +186,21 @@ void solve_soft_step(WorldData<S>& world, JointSet<S>& joint_set) {
       pass(world.motions.data(), &color.blocks[begin], &color.rest[begin], end - begin, between);
     });
   };
+  // Nothing has to be seen between the two: no bounces, whose speed is that of falling.
+  const bool kick_and_pull = pulled && !world.model.restitution;
   for (std::uint32_t i = 0; i < n; ++i) {
     note(passes.note_approach);
-    if (pulled) {
-      pull_bodies(world, body_grain);
+    if (kick_and_pull && i > 0) {
+      pull_bodies<S, true>(world, body_grain);
+    } else if (pulled) {
+      pull_bodies<S, false>(world, body_grain);
     } else {
       integrate_velocities(world, mover, body_grain);
     }
     note(passes.note_bounce);
+    if (i > 0 && !kick_and_pull) kick_bodies(world, body_grain);
     joints.warm_start();
-    run(&ContactPasses<S>::warm_start, Order::kForwards);
+    if (i == 0) run(&ContactPasses<S>::warm_start, Order::kForwards);
     joints.solve();
     run(&ContactPasses<S>::solve, i % 2 == 0 ? Order::kForwards : Order::kBackwards);
     integrate_positions(world, mover, h, body_grain);
@@ -182,7 +208,8 @@ void solve_soft_step(WorldData<S>& world, JointSet<S>& joint_set) {
     run(i + 1 < n ? &ContactPasses<S>::relax : &ContactPasses<S>::relax_last, Order::kBackwards);
     if (world.model.restitution) {
       for_each_color(world, Order::kForwards, block_grain, [&](auto& color, bool, std::size_t begin, std::size_t end) {
-        passes.restitute(world.motions.data(), &color.blocks[begin], &color.rest[begin], end - begin);
+        passes.restitute(world.motions.data(), &color.blocks[begin], &color.rest[begin], end - begin,
+                         i + 1 < n ? between.kicks : nullptr);
       });
     }
   }

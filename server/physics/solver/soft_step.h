@@ -15,7 +15,8 @@ namespace urto {
 // - colours are taken forwards and backwards in turn, so that a pile does not lean over to one side.
 //
 // Per sub-step: integrate velocities, warm start, solve with bias, integrate positions, relax (solve without bias),
-// restitute. Works on the lanes of the contact set in place; joints come before contacts in each
+// restitute. The warm start goes over the contacts in the first sub-step alone; later ones have its sums by body, which
+// the relaxation before has made (Kick). Works on the lanes of the contact set in place; joints come before contacts in each
 // pass, so that contacts are firmest. `joints` is a buffer that keeps its capacity between steps.
 template <class S>
 void solve_soft_step(WorldData<S>& world, JointSet<S>& joints);
