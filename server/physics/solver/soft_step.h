@@ -16,8 +16,8 @@ namespace urto {
 //
 // Per sub-step: integrate velocities, warm start, solve with bias, integrate positions, relax (solve without bias),
 // restitute. The warm start goes over the contacts in the first sub-step alone; later ones have its sums by body, which
-// the relaxation before has made (Kick). Works on the lanes of the contact set in place; joints come before contacts in each
-// pass, so that contacts are firmest. `joints` is a buffer that keeps its capacity between steps.
+// the relaxation before has made (Kick). Works on the lanes of the contact set in place; joints come before contacts in
+// each pass, so that contacts are firmest. `joints` is a buffer that keeps its capacity between steps.
 template <class S>
 void solve_soft_step(WorldData<S>& world, JointSet<S>& joints);
 
