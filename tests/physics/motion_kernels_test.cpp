@@ -53,6 +53,10 @@ struct Crowd {
     }
   }
 
+  StepEnd<S> ends(S time_step) {
+    return {bodies.data(), motions.data(), places.data(), shapes.data(), convexes.data(), outlines.data(), time_step};
+  }
+
  private:
   static void set_motion(Motion<S>& m, std::mt19937& random, std::uniform_real_distribution<S>& any) {
     const S size = random() % 3 == 0 ? S(0.01) : S(30);
@@ -184,13 +188,7 @@ void compare_end(std::uint32_t seed) {
   const S time_step = S(1.0 / 60);
   Crowd<S> crowd(seed), expected(seed);
   for (std::size_t i = 0; i < kCount; ++i) end_one(expected.bodies[i], expected.motions[i], time_step);
-  const StepEnd<S> ends{crowd.bodies.data(),
-                        crowd.motions.data(),
-                        crowd.places.data(),
-                        crowd.shapes.data(),
-                        crowd.convexes.data(),
-                        crowd.outlines.data(),
-                        time_step};
+  const StepEnd<S> ends = crowd.ends(time_step);
   for (std::size_t first = 0; first < kCount; first += kBlock) {
     const std::size_t count = std::min(kBlock, kCount - first);
     const BlockEnd end = motion_kernels<S>().end_step(ends, &crowd.slots[first], count);
@@ -223,13 +221,7 @@ void compare_follow(std::uint32_t seed) {
   const S time_step = S(1.0 / 60);
   Crowd<S> crowd(seed);
   const Crowd<S> before(seed);
-  const StepEnd<S> ends{crowd.bodies.data(),
-                        crowd.motions.data(),
-                        crowd.places.data(),
-                        crowd.shapes.data(),
-                        crowd.convexes.data(),
-                        crowd.outlines.data(),
-                        time_step};
+  const StepEnd<S> ends = crowd.ends(time_step);
   std::vector<std::uint32_t> proxies;
   for (const std::uint32_t slot : crowd.slots)
     if (crowd.bodies[slot].dynamic() && crowd.places[slot].vertices != S(0)) proxies.push_back(slot);
