@@ -173,7 +173,7 @@ void update_ground_lanes(WorldData<S>& world, std::size_t first, std::vector<std
     for (std::size_t i = begin; i < end; ++i)
       collide_lanes(world, *blocks[first + i].block, *blocks[first + i].rest, manifolds[i]);
   });
-  // By ground block; the findings by contact come later in the step.
+  // By ground block; those by contact have been read by now.
   std::vector<std::uint8_t>& parts_here = world.scratch.findings;
   parts_here.resize(count);
   const std::size_t last_color = count - world.touching.colors[kColorsMax - 1].blocks.size();
