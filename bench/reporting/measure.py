@@ -100,8 +100,8 @@ class Bench:
         arguments = [point.case, point.method, "--runs", str(runs), "--budget", str(effort.budget_s)]
         timeout_s = effort.timeout_s if point.timed else effort.long_timeout_s
         record |= self.run(point.engine, arguments, timeout_s)[-1]
-        if not point.timed:
-            record.pop("cpu_s_per_s", None)  # others ran beside it
+        if not point.timed or record.get("cpu_s_per_s") is None:  # others ran beside it, or it simulated nothing
+            record.pop("cpu_s_per_s", None)
         return record
 
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <set>
+#include <stdexcept>
 
 #include "accuracy/case.h"
 #include "accuracy/expected_failures.h"
@@ -66,6 +67,18 @@ TEST(RegistryTest, NamesAreUniqueAndEveryRowIsThere) {
     rows.insert(each.row);
   }
   for (int row = 1; row <= 33; ++row) EXPECT_TRUE(rows.contains(row)) << row;
+}
+
+TEST(RegistryTest, CaseThatSimulatesNothingIsNoMeasurement) {
+  Lab lab(make_urto, method_of(Profile::kDefault));
+  const Case empty{1, "empty", "", "", "", {}, [](Lab&) { return 0.0; }};
+  EXPECT_THROW(error_of(empty, lab), std::logic_error);
+}
+
+// In float too, where the velocity at the start is not quite what was asked for.
+TEST(RegistryTest, ObliqueImpulseWaitsForTheImpact) {
+  Lab lab(make_urto, method_of(Profile::kDefault));
+  EXPECT_LT(error_of(*find_case("oblique_impulse"), lab), 1.0);
 }
 
 TEST(ExpectedFailuresTest, NamesLevelsThatThereAre) {

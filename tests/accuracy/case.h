@@ -36,7 +36,7 @@ const std::vector<Case>& all_cases();
 // Null if there is none of this name.
 const Case* find_case(const std::string& name);
 
-// The error of a case; infinite if it is no number.
+// The error of a case; infinite if it is no number. Throws std::logic_error if it has simulated nothing.
 double error_of(const Case& a_case, Lab& lab);
 
 // The groups, each in a file of its own.

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "accuracy/case.h"
 
@@ -39,7 +40,9 @@ const Case* find_case(const std::string& name) {
 }
 
 double error_of(const Case& a_case, Lab& lab) {
+  const double before = lab.simulated_seconds();
   const double error = a_case.measure(lab);
+  if (!(lab.simulated_seconds() > before)) throw std::logic_error(a_case.name + " has simulated nothing");
   return std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
 }
 
