@@ -230,6 +230,15 @@ def write_pages(out: Path, data: Record, about: list[str]) -> None:
     (out / "accuracy.json").write_text(text + "\n", encoding="utf-8")
 
 
+def when_made(started: str, took_s: float, notes: Notes) -> str:
+    words = f"{started}, in {took_s / 60:.0f} minutes"
+    before = time.time() - took_s - notes.used_since
+    if before < 60:
+        return words
+    since = datetime.fromtimestamp(notes.used_since, timezone.utc).strftime("%Y-%m-%d %H:%M UTC")
+    return f"{words} after runs that were stopped and went on from what the programs had measured since {since}"
+
+
 def main() -> None:
     arguments = parse_arguments()
     start, started = time.monotonic(), datetime.now(timezone.utc).strftime("%Y-%m-%d %H:%M UTC")
@@ -257,7 +266,7 @@ def main() -> None:
     machine["load at end"] = os.getloadavg()[0]
     took = time.monotonic() - start
     versions = {record["engine"]: record["version"] for record in records if "version" in record}
-    about = pages.about(machine, versions, started, took, arguments.quick)
+    about = pages.about(machine, versions, when_made(started, took, notes), arguments.quick)
     data = {"started": started, "quick": arguments.quick, "machine": machine, "versions": versions, "cases": cases}
     data |= {"took_s": parts.seconds, "features": features}
     data |= {"points": records, "rectangles": stages, "rectangles_errors": stage_errors}

@@ -27,6 +27,8 @@ class Notes:
         }
         self._lock = threading.Lock()
         self._known: dict[tuple[str, ...], list[Record]] = {}
+        self._at: dict[tuple[str, ...], float] = {}
+        self.used_since = time.time()  # when the oldest note that was asked for was taken
         oldest = time.time() - 3600 * KEPT_HOURS
         for line in path.read_text(encoding="utf-8").splitlines() if path.exists() else []:
             try:
@@ -35,12 +37,15 @@ class Notes:
                 continue  # it was being written when the report was stopped
             if note["at"] > oldest:
                 self._known[tuple(note["key"])] = note["lines"]
+                self._at[tuple(note["key"])] = note["at"]
 
     def _key(self, engine: str, arguments: Sequence[str]) -> tuple[str, ...]:
         return engine, self._programs[engine], *arguments
 
     def get(self, engine: str, arguments: Sequence[str]) -> list[Record] | None:
-        return copy.deepcopy(self._known.get(self._key(engine, arguments)))
+        key = self._key(engine, arguments)
+        self.used_since = min(self.used_since, self._at.get(key, self.used_since))
+        return copy.deepcopy(self._known.get(key))
 
     def add(self, engine: str, arguments: Sequence[str], lines: Sequence[Record]) -> None:
         """May be called from several threads."""

@@ -28,7 +28,8 @@ def _cell(record: Record | None, level: float | None = None) -> str:
     if "lacks" in record:
         return "–"
     if "failed" in record:
-        return "too long" if "took" in record["failed"] else "failed"
+        words = "too long" if "took" in record["failed"] else "failed"
+        return words if level is None else f"{words} ✗ {_number(level)}"
     text = _number(record["error"])
     if level is None:
         return text
@@ -84,9 +85,10 @@ def table_of_laws(cases: Sequence[Record], results: Results) -> list[str]:
     return ["| row | case | integrator | error ✓ level |", "| --- | --- | --- | ---: |", *rows]
 
 
-def about(machine: Record, versions: dict[str, str], started: str, took_s: float, quick: bool) -> list[str]:
+def about(machine: Record, versions: dict[str, str], when: str, quick: bool) -> list[str]:
+    """`when`: it was made, and for how long, in words."""
     return [
-        f"Made by `scripts/report{' --quick' if quick else ''}`, {started}, in {took_s / 60:.0f} minutes, at commit "
+        f"Made by `scripts/report{' --quick' if quick else ''}`, {when}, at commit "
         f"{machine['commit']}{' with changes' if machine['uncommitted changes'] else ''}. {machine['processor']}, "
         f"{machine['processors']} processors, {', '.join(machine['simd']) or 'no x86 SIMD'}; {machine['system']}; "
         f"{machine['c++']}; {machine['cargo']}. Load average {machine['load at start']:.1f} at the start and "

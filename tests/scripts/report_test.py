@@ -9,7 +9,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "bench"))
 
-from reporting import measure, notes, plan  # noqa: E402
+from reporting import measure, notes, pages, plan  # noqa: E402
 
 CASE = {"row": 3, "case": "bounce", "curves": "solvers", "long": False, "levels": {"default": 0.1, "verlet": 0.2}}
 
@@ -75,6 +75,28 @@ def test_a_half_written_note_and_an_old_one_are_left_out(tmp_path, monkeypatch):
     monkeypatch.setattr(notes, "KEPT_HOURS", 0)
     bench(tmp_path, path).point(POINT, EFFORT)
     assert runs(tmp_path) == 2
+
+
+def test_a_report_that_went_on_tells_since_when_it_measured(tmp_path):
+    path = program(tmp_path)
+    bench(tmp_path, path).point(POINT, EFFORT)
+    taken = json.loads((tmp_path / "notes.jsonl").read_text())["at"]
+    later = bench(tmp_path, path)
+    assert later.notes.used_since > taken, "it has asked for nothing yet"
+    later.point(POINT, EFFORT)
+    assert later.notes.used_since == taken
+
+
+def test_a_point_that_simulated_nothing_has_no_time(tmp_path):
+    path = program(tmp_path)
+    path.write_text(path.read_text().replace("0.25", "null"))
+    assert "cpu_s_per_s" not in bench(tmp_path, path).point(POINT, EFFORT)
+
+
+def test_a_level_that_took_too_long_is_not_met():
+    record = {"failed": "took more than 60 s"}
+    assert pages._cell(record, 1e-6) == "too long ✗ 1e-06"
+    assert pages._cell(record) == "too long"
 
 
 def test_what_runs_beside_others_has_no_time(tmp_path):
