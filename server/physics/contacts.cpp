@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "physics/constants.h"
 #include "physics/contact_graph.h"
@@ -292,7 +293,7 @@ bool discs_apart(const Place<S>& a, const Place<S>& b) {
   return dx * dx + dy * dy > near * near;
 }
 
-enum Finding : std::uint8_t { kApart, kParted, kMet };
+enum Finding : std::uint8_t { kApart = 0, kParted, kMet };
 
 // Looks at contacts that do not touch yet, and notes what it finds by their index: kParted what has left the other's
 // bounds, kMet what has a manifold now. Several may look at different contacts side by side.
@@ -389,6 +390,19 @@ class Lookout {
   ManifoldLanes<S> manifolds_{};
 };
 
+// Calls visit(index) for each finding that is one: few are, so eight are asked at a time.
+template <class Visit>
+void for_each_finding(const std::vector<std::uint8_t>& findings, const Visit& visit) {
+  for (std::size_t i = 0; i < findings.size(); i += 8) {
+    const std::size_t end = std::min(i + 8, findings.size());
+    std::uint64_t eight = 0;
+    std::memcpy(&eight, &findings[i], end - i);
+    if (eight == 0) continue;
+    for (std::size_t k = i; k < end; ++k)
+      if (findings[k] != kApart) visit(k);
+  }
+}
+
 template <class S>
 void find_met_and_parted(WorldData<S>& world) {
   Scratch<S>& scratch = world.scratch;
@@ -397,10 +411,9 @@ void find_met_and_parted(WorldData<S>& world) {
                     [&](unsigned, std::size_t begin, std::size_t end) { Lookout<S>(world).look_at(begin, end); });
   scratch.parted.clear();
   scratch.met.clear();
-  for (std::size_t i = 0; i < world.active.size(); ++i) {
-    if (scratch.findings[i] == kParted) scratch.parted.push_back(world.active[i].contact);
-    if (scratch.findings[i] == kMet) scratch.met.push_back(world.active[i].contact);
-  }
+  for_each_finding(scratch.findings, [&](std::size_t i) {
+    (scratch.findings[i] == kParted ? scratch.parted : scratch.met).push_back(world.active[i].contact);
+  });
 }
 
 // Waking comes last: it makes further contacts active.

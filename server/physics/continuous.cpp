@@ -79,16 +79,17 @@ class ContinuousCollision {
   // out of the bounds that the broad phase knows they are stretched, so that there is a contact of every pair that may
   // meet.
   void cover_ways(const std::vector<std::uint32_t>& slots) {
-    std::vector<std::vector<Proxy>>& left = lists_by_part(world_);
+    std::vector<std::vector<Proxy>>& fast = lists_by_part(world_);
     world_.team->share(slots.size(), kBodiesPerShare, [&](unsigned part, std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) note_way(slots[i], left[part]);
+      for (std::size_t i = begin; i < end; ++i) note_way(slots[i], fast[part]);
+      keep_leaving(fast[part]);
     });
-    for (const std::vector<Proxy>& proxies : left)
-      for (Proxy p : proxies) stretch(p);
+    for (const std::vector<Proxy>& left : fast)
+      for (Proxy p : left) stretch(p);
     update_broad_phase(world_);
   }
 
-  void note_way(std::uint32_t slot, std::vector<Proxy>& left) {
+  void note_way(std::uint32_t slot, std::vector<Proxy>& out) {
     const Body<S>& body = world_.bodies[slot];
     const Motion<S>& m = world_.motions[slot];
     const bool fast = moves_fast(body, m);
@@ -99,9 +100,24 @@ class ContinuousCollision {
       place.turn = absolute(m.da) * body.extent_max;
       place.fast = fast ? S(1) : S(0);
       const Shape<S>& shape = world_.shapes[p];
-      if (fast && !shape.sensor() && !holds_way(shape, body, m) && !shape.fat.contains(way_bounds(world_, p)))
-        left.push_back(p);
+      if (fast && !shape.sensor() && !holds_way(shape, body, m)) out.push_back(p);
     }
+  }
+
+  // Of these proxies, those whose way leads out of their bounds.
+  void keep_leaving(std::vector<Proxy>& proxies) const {
+    constexpr std::size_t kBlock = static_cast<std::size_t>(kLanes<S>);
+    const StepEnd<S> world = step_end(world_);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < proxies.size(); i += kBlock) {
+      const std::size_t count = std::min(kBlock, proxies.size() - i);
+      std::uint32_t leaving = motion_kernels<S>().leaving(world, &proxies[i], count);
+      for (; leaving != 0; leaving &= leaving - 1) {
+        const Proxy p = proxies[i + static_cast<std::size_t>(__builtin_ctz(leaving))];
+        if (!world_.shapes[p].fat.contains(way_bounds(world_, p))) proxies[kept++] = p;
+      }
+    }
+    proxies.resize(kept);
   }
 
   // Whether bounds hold the disc around a body all the way: the outline need not be gone round then.
@@ -124,14 +140,13 @@ class ContinuousCollision {
   };
 
   void flush(Batch& batch, std::vector<std::uint32_t>& out) const {
-    note_closing(batch.a, batch.b, batch.contact, batch.count, out);
+    note(closing_kernels<S>().closing(world_.places.data(), batch.a, batch.b), batch.count, batch.contact, out);
     batch.count = 0;
   }
 
-  void note_closing(const std::uint32_t* a, const std::uint32_t* b, const std::uint32_t* contacts, std::uint32_t count,
-                    std::vector<std::uint32_t>& out) const {
-    std::uint32_t found = closing_kernels<S>().closing(world_.places.data(), a, b) & ((1u << count) - 1);
-    for (; found != 0; found &= found - 1) out.push_back(contacts[__builtin_ctz(found)]);
+  static void note(std::uint32_t found, std::uint32_t count, const std::uint32_t* contacts,
+                   std::vector<std::uint32_t>& out) {
+    for (found &= (1u << count) - 1; found != 0; found &= found - 1) out.push_back(contacts[__builtin_ctz(found)]);
   }
 
   bool noted_fast(Proxy p) const { return world_.places[p].fast > S(0); }
@@ -167,7 +182,8 @@ class ContinuousCollision {
     world_.team->share(blocks.size(), kBlocksPerShare, [&](unsigned part, std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const ContactBlockRest<S>& rest = *blocks[i].rest;
-        note_closing(rest.shape_a, rest.shape_b, rest.contact, blocks[i].block->count, lists[part]);
+        const std::uint32_t found = closing_kernels<S>().swinging(world_.places.data(), rest.shape_a, rest.shape_b);
+        note(found, blocks[i].block->count, rest.contact, lists[part]);
       }
     });
     take_up(lists);

@@ -91,8 +91,7 @@ void end_motions(WorldData<S>& world) {
   restful.resize(world.team->parts_max());
   for (auto& list : restful) list.clear();
   world.places.resize(world.shapes.size());
-  const StepEnd<S> ends{world.bodies.data(),   world.motions.data(),  world.places.data(),        world.shapes.data(),
-                        world.convexes.data(), world.outlines.data(), S(world.settings.time_step)};
+  const StepEnd<S> ends = step_end(world);
   world.team->share(world.awake.size(), kBodiesPerShare, [&](unsigned part, std::size_t begin, std::size_t end) {
     constexpr std::size_t kBlock = static_cast<std::size_t>(kLanes<S>);
     Followed<S> followed(world, ends);

@@ -368,6 +368,54 @@ BlockEnd end_step(const StepEnd<S>& world, const std::uint32_t* slots, std::size
   return all;
 }
 
+// The way of a shape is within the boxes around it at its start and at its end and a little more for the arc between
+// (bounds.cpp says how much), and a little more still for rounding.
+template <class S>
+HWY_INLINE std::uint32_t leaving_vector(const StepEnd<S>& world, const std::uint32_t* proxies, std::size_t count,
+                                        Nobody<S>& nobody) {
+  const auto shape = [&](std::size_t i) { return i < count ? &world.shapes[proxies[i]] : &nobody.shape; };
+  const auto place = [&](std::size_t i) { return i < count ? &world.places[proxies[i]] : &nobody.place; };
+  const auto rows_of = [&](std::size_t i) { return i < count ? world.outlines[proxies[i]].rows : nobody.outline.rows; };
+  const auto body = [&](std::size_t i) { return i < count ? &world.bodies[shape(i)->body] : &nobody.body; };
+  const auto motion = [&](std::size_t i) { return i < count ? &world.motions[shape(i)->body] : &nobody.motion; };
+  const auto m0 = load_rows<S>([&](std::size_t i) { return &motion(i)->vx; });
+  const auto m1 = load_rows<S>([&](std::size_t i) { return &motion(i)->dy; });
+  const auto b0 = load_rows<S>([&](std::size_t i) { return &body(i)->x; });
+  const auto b4 = load_rows<S>([&](std::size_t i) { return &body(i)->torque; });
+  const auto p0 = load_rows<S>([&](std::size_t i) { return &place(i)->x; });
+  const auto p1 = load_rows<S>([&](std::size_t i) { return &place(i)->half_width; });
+  const auto p3 = load_rows<S>([&](std::size_t i) { return &place(i)->way_x; });
+  const auto fat = load_rows<S>([&](std::size_t i) { return shape(i)->fat.lower.data(); });
+  const auto vertices = hn::Abs(p3.c2), disc = b4.c2;
+  const auto turn_c = m1.c2, turn_s = m1.c3;
+  const auto c = hn::Sub(hn::Mul(turn_c, p0.c2), hn::Mul(turn_s, p0.c3));
+  const auto s = hn::Add(hn::Mul(turn_s, p0.c2), hn::Mul(turn_c, p0.c3));
+  const auto x = hn::Add(hn::Add(b0.c0, m0.c3), hn::Sub(hn::Mul(turn_c, p1.c2), hn::Mul(turn_s, p1.c3)));
+  const auto y = hn::Add(hn::Add(b0.c1, m1.c0), hn::Add(hn::Mul(turn_s, p1.c2), hn::Mul(turn_c, p1.c3)));
+  const Extents<S> start(p1, vertices, p0.c2, p0.c3, disc, rows_of), end(p1, vertices, c, s, disc, rows_of);
+  const auto turn = hn::Abs(m1.c1);
+  const auto more = hn::Mul(disc, hn::Add(hn::Mul(set(S(0.125)), square<S>(turn)), set(S(kDiscSlack))));
+  const auto low_x = hn::Sub(smaller(hn::Add(p0.c0, start.low_x), hn::Add(x, end.low_x)), more);
+  const auto low_y = hn::Sub(smaller(hn::Add(p0.c1, start.low_y), hn::Add(y, end.low_y)), more);
+  const auto high_x = hn::Add(larger(hn::Add(p0.c0, start.high_x), hn::Add(x, end.high_x)), more);
+  const auto high_y = hn::Add(larger(hn::Add(p0.c1, start.high_y), hn::Add(y, end.high_y)), more);
+  const auto inside = hn::And(hn::And(hn::Ge(low_x, fat.c0), hn::Ge(low_y, fat.c1)),
+                              hn::And(hn::Le(high_x, fat.c2), hn::Le(high_y, fat.c3)));
+  const auto known = hn::And(hn::Gt(vertices, hn::Zero(Tag<S>())), hn::Le(turn, set(S(1))));
+  const std::uint32_t lanes = (1u << (count < hn::Lanes(Tag<S>()) ? count : hn::Lanes(Tag<S>()))) - 1;
+  return lanes & ~bits_of<S>(hn::And(inside, known));
+}
+
+template <class S>
+std::uint32_t leaving(const StepEnd<S>& world, const std::uint32_t* proxies, std::size_t count) {
+  Nobody<S> nobody;
+  std::uint32_t found = 0;
+  const std::size_t width = hn::Lanes(Tag<S>());
+  for (std::size_t lane = 0; lane < count; lane += width)
+    found |= leaving_vector(world, proxies + lane, count - lane, nobody) << lane;
+  return found;
+}
+
 template <class S>
 std::uint32_t fast(const Body<S>* bodies, const Motion<S>* motions, const std::uint32_t* slots, std::size_t count) {
   const Body<S> no_body;
@@ -390,7 +438,7 @@ std::uint32_t fast(const Body<S>* bodies, const Motion<S>* motions, const std::u
 }
 
 template <class S>
-constexpr MotionKernels<S> kKernels{integrate_positions<S>, end_step<S>, follow<S>, fast<S>};
+constexpr MotionKernels<S> kKernels{integrate_positions<S>, end_step<S>, follow<S>, leaving<S>, fast<S>};
 
 }  // namespace
 

@@ -22,6 +22,14 @@ struct StepEnd {
   S time_step;
 };
 
+template <class S>
+struct WorldData;
+template <class S>
+StepEnd<S> step_end(WorldData<S>& world) {
+  return {world.bodies.data(),   world.motions.data(),  world.places.data(),        world.shapes.data(),
+          world.convexes.data(), world.outlines.data(), S(world.settings.time_step)};
+}
+
 // What was found of the bodies of a block, a bit each.
 struct BlockEnd {
   std::uint32_t followed;  // that have one shape in their middle, whose place and bounds are as they shall be
@@ -40,6 +48,9 @@ struct MotionKernels {
   // The same for shapes of bodies that have ended their step: sets their places, and new bounds where they left theirs,
   // a bit each. Shapes of dynamic bodies with a kernel of the narrow phase alone. `count` of at most kLanes.
   std::uint32_t (*follow)(const StepEnd<S>& world, const std::uint32_t* proxies, std::size_t count);
+  // A bit each for shapes that may leave their bounds on their body's way, which is yet to be taken over: all that do,
+  // and a few that come near to it, or turn far, or that no kernel knows. `count` of at most kLanes.
+  std::uint32_t (*leaving)(const StepEnd<S>& world, const std::uint32_t* proxies, std::size_t count);
   // A bit each for bodies whose farthest point may have come further than kFastFraction of their least extent, or, if
   // they are kinematic, have moved at all. `count` of at most kLanes.
   std::uint32_t (*fast)(const Body<S>* bodies, const Motion<S>* motions, const std::uint32_t* slots, std::size_t count);

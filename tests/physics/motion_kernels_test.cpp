@@ -7,6 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "physics/body_factory.h"
+#include "physics/bounds.h"
 #include "physics/constants.h"
 #include "physics/motion.h"
 #include "physics/simd/lanes.h"
@@ -281,6 +283,72 @@ TEST(MotionKernelsTest, MoveAsOneBodyAfterTheOtherAtEveryWidth) {
     }
   }
   use_simd_target(0);
+}
+
+// A body of a box, a polygon, a disc, a capsule and a box across, in turns alone and together.
+BodyDef body_of_shapes(std::mt19937& random, std::uint32_t which) {
+  std::uniform_real_distribution<double> any(-1, 1);
+  const Geometry shapes[] = {Box{0.8, 0.3}, Polygon{{{0.4, 0.1}, {1.2, 0.1}, {0.7, 0.8}}, 0.02}, Circle{0.3},
+                             Capsule{{-0.4, 0.2}, {0.3, 0.2}, 0.1}, Box{0.4, 0.2, {0.5, 0}, 0.7}};
+  BodyDef def;
+  def.position = Vec2(10 * any(random), 10 * any(random));
+  def.angle = 3 * any(random);
+  def.velocity = Vec2(any(random), any(random));
+  def.angular_velocity = any(random);
+  for (std::uint32_t i = 0; i < 5; ++i)
+    if ((which >> i & 1u) != 0) def.shapes.push_back({shapes[i], {}, {}, false});
+  return def;
+}
+
+struct Leavers {
+  int left = 0, stayed = 0, asked_in_vain = 0;
+};
+
+// Every shape whose way leads out of its bounds is named, and few others.
+template <class S>
+void count_leavers(std::uint32_t seed, Leavers& leavers) {
+  constexpr std::size_t kBlock = static_cast<std::size_t>(kLanes<S>);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<S> off(S(-0.15), S(0.15));
+  WorldData<S> world;
+  for (std::uint32_t which = 1; which < 32; ++which) {
+    Motion<S>& m = world.motions[create_body(world, body_of_shapes(random, which))];
+    m.dx = m.vx / 60 + off(random);
+    m.dy = m.vy / 60 + off(random);
+    m.da = (which % 8 == 0 ? 10 : 2) * off(random);
+    rotation_by(m.da, m.c, m.s);
+  }
+  std::vector<Proxy> proxies(world.shapes.size());
+  std::iota(proxies.begin(), proxies.end(), 0u);
+  for (std::size_t first = 0; first < proxies.size(); first += kBlock) {
+    const std::size_t count = std::min(kBlock, proxies.size() - first);
+    const std::uint32_t named = motion_kernels<S>().leaving(step_end(world), &proxies[first], count);
+    EXPECT_EQ(named >> count, 0u);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const Proxy p = proxies[first + lane];
+      const bool leaves = !world.shapes[p].fat.contains(way_bounds(world, p)), asked = (named >> lane & 1u) != 0;
+      EXPECT_LE(leaves, asked) << "proxy " << p << ", seed " << seed;
+      leavers.left += leaves;
+      leavers.stayed += !leaves;
+      leavers.asked_in_vain += asked && !leaves && world.places[p].vertices != S(0);
+    }
+  }
+}
+
+TEST(MotionKernelsTest, NameWhatLeavesItsBoundsAtEveryWidth) {
+  Leavers leavers;
+  for (const SimdTarget& target : simd_targets()) {
+    use_simd_target(target.id);
+    SCOPED_TRACE(target.name);
+    for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+      count_leavers<float>(seed, leavers);
+      count_leavers<double>(seed, leavers);
+    }
+  }
+  use_simd_target(0);
+  EXPECT_GT(leavers.left, 500);
+  EXPECT_GT(leavers.stayed, 500);
+  EXPECT_LT(leavers.asked_in_vain, leavers.stayed / 50);
 }
 
 }  // namespace

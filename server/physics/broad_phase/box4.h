@@ -49,6 +49,12 @@ struct alignas(16 * sizeof(S)) Box4 {
   Aabb<S> get(int lane) const { return {Vec<S>(lower_x[lane], lower_y[lane]), Vec<S>(upper_x[lane], upper_y[lane])}; }
   bool is_empty(int lane) const { return lower_x[lane] > upper_x[lane]; }
 
+  // m; 0 of an empty lane.
+  double half_perimeter(int lane) const {
+    if (is_empty(lane)) return 0;
+    return static_cast<double>(upper_x[lane] - lower_x[lane]) + static_cast<double>(upper_y[lane] - lower_y[lane]);
+  }
+
   // The box around all four lanes.
   Aabb<S> bounds() const {
     return {Vec<S>(least(lower_x), least(lower_y)), Vec<S>(greatest(upper_x), greatest(upper_y))};

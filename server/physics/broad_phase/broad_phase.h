@@ -39,9 +39,9 @@ class BroadPhase {
 
   // Of the pairs that find_pairs would report those whose bounds did not overlap when this was last asked: what a
   // caller that keeps its pairs has not met yet. It may name others too, as after a rebuild.
-  virtual void find_new_pairs(std::span<const Proxy> moved, std::vector<std::pair<Proxy, Proxy>>& pairs);
+  virtual void find_new_pairs(std::span<const Proxy> moved, std::vector<std::pair<Proxy, Proxy>>& pairs) = 0;
   // Makes the pairs of a proxy new again.
-  void forget(Proxy proxy);
+  virtual void forget(Proxy proxy) = 0;
 
   // All proxies whose bounds overlap the box, ascending. `out` is cleared first.
   virtual void query(const Aabb<S>& box, std::vector<Proxy>& out) const = 0;
@@ -51,19 +51,9 @@ class BroadPhase {
   static std::unique_ptr<BroadPhase> create(BroadPhaseKind kind);  // kAuto is not a structure: refused with nullptr
 
  protected:
-  // Every insert and move tells of the bounds here.
-  void note(Proxy proxy, const Aabb<S>& bounds);
-  void note_new(Proxy proxy, const Aabb<S>& bounds);
-  const Aabb<S>& bounds_of(Proxy proxy) const { return noted_[proxy].now; }
-  bool knows(Proxy a, Proxy b) const { return noted_[a].before.overlaps(noted_[b].before); }
-  void settle(std::span<const Proxy> moved);
   Team* team() const { return team_; }  // may be none
 
  private:
-  struct Noted {
-    Aabb<S> before, now;  // when new pairs were last sought; at this time
-  };
-  std::vector<Noted> noted_;  // by proxy
   Team* team_ = nullptr;
 };
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "physics/broad_phase/box4.h"
-#include "physics/broad_phase/broad_phase.h"
+#include "physics/broad_phase/noting_broad_phase.h"
 #include "physics/broad_phase/pair_sorter.h"
 
 namespace urto {
@@ -14,7 +14,7 @@ namespace urto {
 // Every proxy against every other, with the thesis's two preliminary checks: still against still is skipped, and boxes
 // that do not overlap are. Best for small rooms. The boxes of four neighbouring proxies share a block.
 template <class S>
-class BruteForce final : public BroadPhase<S> {
+class BruteForce final : public NotingBroadPhase<S> {
  public:
   void insert(Proxy proxy, const Aabb<S>& bounds, bool still) override;
   void remove(Proxy proxy) override;

@@ -26,33 +26,45 @@ struct JoinTask {
 };
 
 // Finds the overlapping pairs, of which one is marked, within a tree or between two. What lies at or below the level of
-// tasks can be left to be done later, by several side by side.
-template <class S, class Wanted>
+// tasks can be left to be done later, by several side by side. Leaves that may hold pairs are gathered, and looked at
+// many at a time.
+template <class S>
 class TreeJoin {
  public:
   using Tree = PackedTree<S>;
   using Node = Box4<S>;
   using Task = JoinTask<S>;
 
-  TreeJoin(const Tree& a, const Tree& b, const Wanted& wanted, PairSorter& pairs)
-      : a_(a), b_(b), wanted_(wanted), pairs_(pairs) {}
+  TreeJoin(const Tree& a, const Tree& b, bool fresh, PairSorter& pairs) : a_(a), b_(b), fresh_(fresh), pairs_(pairs) {}
 
-  // From now on, what lies at or below this level goes into the list.
+  // Lists what lies at or below this level, which is all of the join.
   void list_tasks(std::uint32_t level, std::vector<Task>& tasks) {
     task_level_ = level;
     tasks_ = &tasks;
+    descend_all();
+    tasks_ = nullptr;
   }
-  void run(const Task& task) { task.within ? within(task.x.level, task.x.index) : between(task.x, task.y); }
+  void run(const Task* begin, const Task* end) {
+    for (; begin != end; ++begin) begin->within ? within(begin->x.level, begin->x.index) : between(begin->x, begin->y);
+    look_at_leaves();
+  }
 
   // All pairs of the join.
-  void all() { &a_ == &b_ ? within(a_.top_level(), 0) : all_between(); }
+  void all() {
+    descend_all();
+    look_at_leaves();
+  }
 
  private:
   using Branch = urto::Branch<S>;
+  static constexpr std::size_t kLeavesMax = 256;  // gathered at a time
+
+  void descend_all() { &a_ == &b_ ? within(a_.top_level(), 0) : all_between(); }
 
   // Pairs under one node of tree a.
   void within(std::uint32_t level, std::uint32_t index) {
     if (tasks_ && level <= task_level_) return tasks_->push_back({{level, index, {}}, {}, true});
+    if (level == 0) return add_leaves(index, index);
     const Node& boxes = a_.node(level, index);
     const std::uint32_t marks = a_.marks(level, index);
     for (int i = 0; i < 4; ++i) {
@@ -60,13 +72,9 @@ class TreeJoin {
       const std::uint32_t wanted = (marks >> i & 1u) != 0 ? Node::kAll : marks;
       for (std::uint32_t hits = boxes.overlap_mask(boxes, i) & later & wanted; hits != 0; hits &= hits - 1) {
         const int j = std::countr_zero(hits);
-        if (level == 0) {
-          add(a_.proxy(index, i), a_.proxy(index, j));
-        } else {
-          between({level - 1, child(index, i), boxes.get(i)}, {level - 1, child(index, j), boxes.get(j)});
-        }
+        between({level - 1, child(index, i), boxes.get(i)}, {level - 1, child(index, j), boxes.get(j)});
       }
-      if (level != 0 && (marks >> i & 1u) != 0) within(level - 1, child(index, i));
+      if ((marks >> i & 1u) != 0) within(level - 1, child(index, i));
     }
   }
 
@@ -76,10 +84,6 @@ class TreeJoin {
     between({a, 0, a_.node(a, 0).bounds()}, {b, 0, b_.node(b, 0).bounds()});
   }
 
-  void add(Proxy x, Proxy y) {
-    if (wanted_(x, y)) pairs_.add(x, y);
-  }
-
   static std::uint32_t child(std::uint32_t index, int lane) { return index * 4 + static_cast<std::uint32_t>(lane); }
 
   // Pairs under node x of tree a and node y of tree b, of which one holds a mark.
@@ -87,6 +91,7 @@ class TreeJoin {
     if (x.level > y.level) return descend(a_, x, b_, y, [&](const Branch& part) { between(part, y); });
     if (y.level > x.level) return descend(b_, y, a_, x, [&](const Branch& part) { between(x, part); });
     if (tasks_ && x.level <= task_level_) return tasks_->push_back({x, y, false});
+    if (x.level == 0) return add_leaves(x.index, y.index);
     const Node& boxes_x = a_.node(x.level, x.index);
     const Node& boxes_y = b_.node(y.level, y.index);
     const std::uint32_t marks_x = a_.marks(x.level, x.index), marks_y = b_.marks(y.level, y.index);
@@ -97,11 +102,7 @@ class TreeJoin {
       if (wanted == 0) continue;
       for (std::uint32_t hits = boxes_y.overlap_mask(boxes_x, i) & wanted; hits != 0; hits &= hits - 1) {
         const int j = std::countr_zero(hits);
-        if (x.level == 0) {
-          add(a_.proxy(x.index, i), b_.proxy(y.index, j));
-        } else {
-          between({x.level - 1, child(x.index, i), boxes_x.get(i)}, {y.level - 1, child(y.index, j), boxes_y.get(j)});
-        }
+        between({x.level - 1, child(x.index, i), boxes_x.get(i)}, {y.level - 1, child(y.index, j), boxes_y.get(j)});
       }
     }
   }
@@ -118,12 +119,31 @@ class TreeJoin {
     }
   }
 
+  void add_leaves(std::uint32_t x, std::uint32_t y) {
+    leaves_[leaf_count_++] = {x, y};
+    if (leaf_count_ == kLeavesMax) look_at_leaves();
+  }
+
+  void look_at_leaves() {
+    LeafHit hits[kLeavesMax];
+    const std::size_t found = tree_kernels<S>().meet(a_.leaves(), b_.leaves(), fresh_, leaves_, leaf_count_, hits);
+    leaf_count_ = 0;
+    for (std::size_t k = 0; k < found; ++k) {
+      for (std::uint32_t lanes = hits[k].lanes; lanes != 0; lanes &= lanes - 1) {
+        const int lane = std::countr_zero(lanes);
+        pairs_.add(a_.proxy(hits[k].leaves.x, lane / 4), b_.proxy(hits[k].leaves.y, lane % 4));
+      }
+    }
+  }
+
   const Tree& a_;
   const Tree& b_;
-  const Wanted& wanted_;
+  const bool fresh_;
   PairSorter& pairs_;
   std::uint32_t task_level_ = 0;
   std::vector<Task>* tasks_ = nullptr;
+  LeafPair leaves_[kLeavesMax];
+  std::size_t leaf_count_ = 0;
 };
 
 // The highest level with nodes enough for all parts of a shared search to be about equal.
@@ -140,8 +160,7 @@ template <class S>
 void Bvh<S>::insert(Proxy proxy, const Aabb<S>& bounds, bool still) {
   if (proxy >= groups_.size()) groups_.resize(proxy + 1, kAbsent);
   groups_[proxy] = still ? kStill : kMoving;
-  this->note_new(proxy, bounds);
-  tree_of(proxy).insert(proxy, bounds);
+  tree_of(proxy).insert(proxy, {bounds});
 }
 
 template <class S>
@@ -152,7 +171,6 @@ void Bvh<S>::remove(Proxy proxy) {
 
 template <class S>
 void Bvh<S>::move(Proxy proxy, const Aabb<S>& bounds) {
-  this->note(proxy, bounds);
   tree_of(proxy).move(proxy, bounds);
 }
 
@@ -160,9 +178,10 @@ template <class S>
 void Bvh<S>::set_resting(Proxy proxy, bool resting) {
   const Group group = resting ? kResting : kMoving;
   if (proxy >= groups_.size() || groups_[proxy] >= kStill || groups_[proxy] == group) return;
+  const Bounds<S> bounds = tree_of(proxy).bounds(proxy);
   tree_of(proxy).remove(proxy);
   groups_[proxy] = group;
-  tree_of(proxy).insert(proxy, this->bounds_of(proxy));
+  tree_of(proxy).insert(proxy, bounds);
 }
 
 template <class S>
@@ -172,15 +191,22 @@ void Bvh<S>::refresh() const {
 
 template <class S>
 void Bvh<S>::find_pairs(std::span<const Proxy> moved, std::vector<std::pair<Proxy, Proxy>>& pairs) const {
-  join(moved, [](Proxy, Proxy) { return true; });
+  join(moved, false);
   sorter_.sort_into(static_cast<std::uint32_t>(groups_.size()), pairs);
 }
 
 template <class S>
 void Bvh<S>::find_new_pairs(std::span<const Proxy> moved, std::vector<std::pair<Proxy, Proxy>>& pairs) {
-  join(moved, [this](Proxy a, Proxy b) { return !this->knows(a, b); });
+  join(moved, true);
   sorter_.sort_into(static_cast<std::uint32_t>(groups_.size()), pairs);
-  this->settle(moved);
+  for_moved(
+      moved, [](PackedTree<S>& tree) { tree.settle_all(); },
+      [](PackedTree<S>& tree, Proxy proxy) { tree.settle(proxy); });
+}
+
+template <class S>
+void Bvh<S>::forget(Proxy proxy) {
+  tree_of(proxy).forget(proxy);
 }
 
 template <class S>
@@ -196,8 +222,7 @@ std::array<std::uint32_t, 3> Bvh<S>::for_moved(std::span<const Proxy> moved, con
 }
 
 template <class S>
-template <class Wanted>
-void Bvh<S>::join(std::span<const Proxy> moved, const Wanted& wanted) const {
+void Bvh<S>::join(std::span<const Proxy> moved, bool fresh) const {
   refresh();
   sorter_.clear();
   using Tree = PackedTree<S>;
@@ -205,10 +230,10 @@ void Bvh<S>::join(std::span<const Proxy> moved, const Wanted& wanted) const {
       moved, [](Tree& tree) { tree.mark_all(); }, [](Tree& tree, Proxy proxy) { tree.mark(proxy); });
   for (const Group a : {kMoving, kResting}) {
     if (trees_[a].empty()) continue;
-    if (marked[a] != 0) join(trees_[a], trees_[a], wanted);
+    if (marked[a] != 0) join(trees_[a], trees_[a], fresh);
     for (const Group b : {kResting, kStill}) {
       if (b <= a || trees_[b].empty() || marked[a] + marked[b] == 0) continue;
-      join(trees_[a], trees_[b], wanted);
+      join(trees_[a], trees_[b], fresh);
     }
   }
   for_moved(
@@ -216,20 +241,16 @@ void Bvh<S>::join(std::span<const Proxy> moved, const Wanted& wanted) const {
 }
 
 template <class S>
-template <class Wanted>
-void Bvh<S>::join(const PackedTree<S>& a, const PackedTree<S>& b, const Wanted& wanted) const {
-  using Join = TreeJoin<S, Wanted>;
-  Join whole(a, b, wanted, sorter_);
+void Bvh<S>::join(const PackedTree<S>& a, const PackedTree<S>& b, bool fresh) const {
+  TreeJoin<S> whole(a, b, fresh, sorter_);
   const unsigned parts = this->team() ? this->team()->parts_max() : 1;
   if (parts == 1 || a.size() < kProxiesToShare) return whole.all();
   std::vector<JoinTask<S>> tasks;
   whole.list_tasks(task_level(a, kNodesPerPart * parts), tasks);
-  whole.all();
   if (sorters_.size() < parts) sorters_.resize(parts);
   for (PairSorter& sorter : sorters_) sorter.clear();
   this->team()->share(tasks.size(), kTasksPerShare, [&](unsigned part, std::size_t begin, std::size_t end) {
-    Join join(a, b, wanted, sorters_[part]);
-    for (std::size_t i = begin; i < end; ++i) join.run(tasks[i]);
+    TreeJoin<S>(a, b, fresh, sorters_[part]).run(tasks.data() + begin, tasks.data() + end);
   });
   for (const PairSorter& sorter : sorters_) sorter_.add_all(sorter);
 }

@@ -27,6 +27,7 @@ class Bvh final : public BroadPhase<S> {
   void set_resting(Proxy proxy, bool resting) override;
   void find_pairs(std::span<const Proxy> moved, std::vector<std::pair<Proxy, Proxy>>& pairs) const override;
   void find_new_pairs(std::span<const Proxy> moved, std::vector<std::pair<Proxy, Proxy>>& pairs) override;
+  void forget(Proxy proxy) override;
   void query(const Aabb<S>& box, std::vector<Proxy>& out) const override;
   void query_segment(const Vec<S>& origin, const Vec<S>& translation, std::vector<Proxy>& out) const override;
 
@@ -35,11 +36,9 @@ class Bvh final : public BroadPhase<S> {
 
   PackedTree<S>& tree_of(Proxy proxy) const { return trees_[groups_[proxy]]; }
   void refresh() const;
-  // Hands overlapping pairs to the sorter, of which one has moved and which `wanted` lets pass.
-  template <class Wanted>
-  void join(std::span<const Proxy> moved, const Wanted& wanted) const;
-  template <class Wanted>
-  void join(const PackedTree<S>& a, const PackedTree<S>& b, const Wanted& wanted) const;
+  // Hands overlapping pairs to the sorter, of which one has moved; `fresh`: the new ones alone.
+  void join(std::span<const Proxy> moved, bool fresh) const;
+  void join(const PackedTree<S>& a, const PackedTree<S>& b, bool fresh) const;
 
   // Calls whole(tree) for each tree all of whose proxies have moved, and one(tree, proxy) for each that has in the
   // others. How many have in each tree.

@@ -50,7 +50,7 @@ class CurveGrid {
     const std::size_t stride = items.size() / kSamplesMax + 1;
     std::vector<S> xs, ys, sizes;
     for (std::size_t i = 0; i < items.size(); i += stride) {
-      const Aabb<S>& box = items[i].bounds;
+      const Aabb<S>& box = items[i].now;
       xs.push_back(box.center().x());
       ys.push_back(box.center().y());
       sizes.push_back(max_of(box.upper.x() - box.lower.x(), box.upper.y() - box.lower.y()));
@@ -78,13 +78,14 @@ class CurveGrid {
 }  // namespace
 
 template <class S>
-void PackedTree<S>::insert(Proxy proxy, const Aabb<S>& bounds) {
+void PackedTree<S>::insert(Proxy proxy, const Bounds<S>& bounds) {
   if (proxy >= slot_of_.size()) slot_of_.resize(proxy + 1);
   const std::uint32_t slot = slots_end_++;
   if (slot % 4 == 0) append_group();
   proxies_[slot] = proxy;
   slot_of_[proxy] = slot;
-  levels_[0].nodes[slot / 4].set(static_cast<int>(slot % 4), bounds);
+  levels_[0].nodes[slot / 4].set(static_cast<int>(slot % 4), bounds.now);
+  before_[slot / 4].set(static_cast<int>(slot % 4), bounds.before);
   ++count_;
   ++appended_;
   touch(slot / 4);
@@ -94,6 +95,7 @@ template <class S>
 void PackedTree<S>::remove(Proxy proxy) {
   const std::uint32_t slot = slot_of_[proxy];
   levels_[0].nodes[slot / 4].clear(static_cast<int>(slot % 4));
+  before_[slot / 4].clear(static_cast<int>(slot % 4));
   --count_;
   ++removed_;
   touch(slot / 4);
@@ -104,6 +106,31 @@ void PackedTree<S>::move(Proxy proxy, const Aabb<S>& bounds) {
   const std::uint32_t slot = slot_of_[proxy];
   levels_[0].nodes[slot / 4].set(static_cast<int>(slot % 4), bounds);
   touch(slot / 4);
+}
+
+template <class S>
+Bounds<S> PackedTree<S>::bounds(Proxy proxy) const {
+  const std::uint32_t slot = slot_of_[proxy];
+  const int lane = static_cast<int>(slot % 4);
+  return {levels_[0].nodes[slot / 4].get(lane), before_[slot / 4].get(lane)};
+}
+
+template <class S>
+void PackedTree<S>::settle(Proxy proxy) {
+  const std::uint32_t slot = slot_of_[proxy];
+  const int lane = static_cast<int>(slot % 4);
+  before_[slot / 4].set(lane, levels_[0].nodes[slot / 4].get(lane));
+}
+
+template <class S>
+void PackedTree<S>::settle_all() {
+  before_ = levels_[0].nodes;
+}
+
+template <class S>
+void PackedTree<S>::forget(Proxy proxy) {
+  const std::uint32_t slot = slot_of_[proxy];
+  before_[slot / 4].clear(static_cast<int>(slot % 4));
 }
 
 template <class S>
@@ -151,6 +178,7 @@ void PackedTree<S>::append_group() {
   if (levels_.empty()) levels_.emplace_back();
   std::size_t nodes = levels_[0].nodes.size() + 1;
   proxies_.resize(nodes * 4);
+  before_.resize(nodes);
   is_dirty_.resize(nodes, 0);
   for (std::size_t level = 0;; ++level) {
     levels_[level].nodes.resize(nodes);
@@ -188,24 +216,11 @@ void PackedTree<S>::refresh() {
 }
 
 template <class S>
-double PackedTree<S>::lane_cost(std::uint32_t level, std::uint32_t index, int lane) const {
-  const Node& boxes = levels_[level].nodes[index];
-  if (boxes.is_empty(lane)) return 0;
-  return static_cast<double>(boxes.upper_x[lane] - boxes.lower_x[lane]) +
-         static_cast<double>(boxes.upper_y[lane] - boxes.lower_y[lane]);
-}
-
-template <class S>
 void PackedTree<S>::refit_all() {
   cost_ = 0;
   for (std::uint32_t level = 1; level < levels_.size(); ++level) {
     const std::vector<Node>& children = levels_[level - 1].nodes;
-    std::vector<Node>& parents = levels_[level].nodes;
-    for (std::uint32_t child = 0; child < children.size(); ++child) {
-      const int lane = static_cast<int>(child % 4);
-      parents[child / 4].set(lane, children[child].bounds());
-      cost_ += lane_cost(level, child / 4, lane);
-    }
+    cost_ += tree_kernels<S>().refit(children.data(), children.size(), levels_[level].nodes.data());
   }
 }
 
@@ -218,9 +233,9 @@ void PackedTree<S>::refit_path(std::uint32_t group) {
     const int lane = static_cast<int>(child % 4);
     const Aabb<S> before = parent.get(lane);
     if (before.lower == bounds.lower && before.upper == bounds.upper) return;
-    cost_ -= lane_cost(level, child / 4, lane);
+    cost_ -= parent.half_perimeter(lane);
     parent.set(lane, bounds);
-    cost_ += lane_cost(level, child / 4, lane);
+    cost_ += parent.half_perimeter(lane);
     child /= 4;
   }
 }
@@ -232,12 +247,13 @@ void PackedTree<S>::pack() {
   for (std::uint32_t slot = 0; slot < slots_end_; ++slot) {
     const Node& boxes = levels_[0].nodes[slot / 4];
     const int lane = static_cast<int>(slot % 4);
-    if (!boxes.is_empty(lane)) items_.push_back({boxes.get(lane), proxies_[slot]});
+    if (!boxes.is_empty(lane)) items_.push_back({boxes.get(lane), before_[slot / 4].get(lane), proxies_[slot]});
   }
   const auto groups = static_cast<std::uint32_t>((items_.size() + 3) / 4);
   slots_end_ = static_cast<std::uint32_t>(items_.size());
   appended_ = removed_ = 0;
   proxies_.resize(groups * 4);
+  before_.assign(groups, Node());
   is_dirty_.assign(groups, 0);
   levels_.clear();
   if (groups == 0) return;
@@ -250,7 +266,8 @@ void PackedTree<S>::pack() {
     const Item& item = items_[order_[slot]];
     proxies_[slot] = item.proxy;
     slot_of_[item.proxy] = slot;
-    levels_[0].nodes[slot / 4].set(static_cast<int>(slot % 4), item.bounds);
+    levels_[0].nodes[slot / 4].set(static_cast<int>(slot % 4), item.now);
+    before_[slot / 4].set(static_cast<int>(slot % 4), item.before);
   }
   refit_all();
   packed_cost_ = cost_;
@@ -266,7 +283,7 @@ void PackedTree<S>::sort_along_curve() {
   for (auto* scratch : {&keys_, &keys_sorted_, &order_, &order_sorted_}) scratch->resize(count);
   std::array<std::array<std::uint32_t, kDigits>, kPasses> starts{};
   for (std::size_t i = 0; i < count; ++i) {
-    keys_[i] = grid.key(items_[i].bounds);
+    keys_[i] = grid.key(items_[i].now);
     order_[i] = static_cast<std::uint32_t>(i);
     for (int pass = 0; pass < kPasses; ++pass) ++starts[pass][keys_[i] >> (pass * kDigitBits) & (kDigits - 1)];
   }

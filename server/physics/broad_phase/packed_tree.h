@@ -6,8 +6,15 @@
 
 #include "physics/broad_phase/box4.h"
 #include "physics/broad_phase/broad_phase.h"
+#include "physics/broad_phase/tree_kernels.h"
 
 namespace urto {
+
+// The bounds of a proxy: as they are, and as they were when new pairs were last sought; at first, nowhere.
+template <class S>
+struct Bounds {
+  Aabb<S> now, before = nowhere<S>();
+};
 
 // A four-way tree of boxes without pointers: the children of node j of a level are nodes 4j to 4j + 3 of the level
 // below, and the lanes of level 0 are the proxies themselves.
@@ -23,9 +30,10 @@ class PackedTree {
  public:
   using Node = Box4<S>;
 
-  void insert(Proxy proxy, const Aabb<S>& bounds);
+  void insert(Proxy proxy, const Bounds<S>& bounds);
   void remove(Proxy proxy);
   void move(Proxy proxy, const Aabb<S>& bounds);
+  Bounds<S> bounds(Proxy proxy) const;
 
   // Brings the inner nodes up to date. Everything below needs that after a change.
   void refresh();
@@ -45,6 +53,13 @@ class PackedTree {
   void unmark_all();
   std::uint32_t marks(std::uint32_t level, std::uint32_t index) const { return levels_[level].marks[index]; }
 
+  // New pairs have been sought: bounds are from now on what they were before.
+  void settle(Proxy proxy);
+  void settle_all();
+  // They were nowhere: all pairs of the proxy are new.
+  void forget(Proxy proxy);
+  Leaves<S> leaves() const { return {levels_[0].nodes.data(), before_.data(), levels_[0].marks.data()}; }
+
   // Calls visit(proxy, bounds) for each proxy under boxes that `mask_of(node)` selects, by a bit a lane.
   template <class MaskOf, class Visit>
   void visit(MaskOf&& mask_of, Visit&& visit_proxy) const;
@@ -55,7 +70,7 @@ class PackedTree {
     std::vector<std::uint8_t> marks;
   };
   struct Item {
-    Aabb<S> bounds;
+    Aabb<S> now, before;
     Proxy proxy;
   };
 
@@ -65,9 +80,9 @@ class PackedTree {
   void sort_along_curve();
   void refit_all();
   void refit_path(std::uint32_t group);
-  double lane_cost(std::uint32_t level, std::uint32_t index, int lane) const;
 
   std::vector<Level> levels_;
+  std::vector<Node> before_;                 // by group: boxes of level 0 when new pairs were last sought
   std::vector<Proxy> proxies_;               // by slot = 4 · group + lane
   std::vector<std::uint32_t> slot_of_;       // by proxy
   std::vector<std::uint32_t> dirty_groups_;  // each once

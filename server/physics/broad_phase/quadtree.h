@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "physics/broad_phase/broad_phase.h"
+#include "physics/broad_phase/noting_broad_phase.h"
 #include "physics/broad_phase/pair_sorter.h"
 
 namespace urto {
@@ -23,7 +23,7 @@ namespace urto {
 //
 // The proxies of a node are a linked list through proxy slots.
 template <class S>
-class Quadtree final : public BroadPhase<S> {
+class Quadtree final : public NotingBroadPhase<S> {
  public:
   Quadtree();
   void insert(Proxy proxy, const Aabb<S>& bounds, bool still) override;

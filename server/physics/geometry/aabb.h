@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "physics/geometry/vector.h"
 
 namespace urto {
@@ -30,5 +32,12 @@ struct Aabb {
   S perimeter() const { return S(2) * ((upper.x() - lower.x()) + (upper.y() - lower.y())); }
   Vec<S> center() const { return Vec<S>(S(0.5) * (lower.x() + upper.x()), S(0.5) * (lower.y() + upper.y())); }
 };
+
+// A box that overlaps nothing.
+template <class S>
+Aabb<S> nowhere() {
+  constexpr S kInfinity = std::numeric_limits<S>::infinity();
+  return {Vec<S>(kInfinity, kInfinity), Vec<S>(-kInfinity, -kInfinity)};
+}
 
 }  // namespace urto
