@@ -39,17 +39,22 @@ struct Bodies {
   Vector<S> vx, vy, w, dx, dy, da, c, s;
   Vector<S> im, ii;
 
-  HWY_INLINE Bodies(const Motion<S>* motions, const std::uint32_t* slots, const S* inv_mass, const S* inv_inertia) {
+  HWY_INLINE Bodies(const Motion<S>* motions, const std::uint32_t* slots, const S* inv_mass, const S* inv_inertia,
+                    bool moved) {
     const auto m0 = load_rows<S>([&](std::size_t i) { return &motions[slots[i]].vx; });
-    const auto m1 = load_rows<S>([&](std::size_t i) { return &motions[slots[i]].dy; });
     vx = m0.c0;
     vy = m0.c1;
     w = m0.c2;
     dx = m0.c3;
-    dy = m1.c0;
-    da = m1.c1;
-    c = m1.c2;
-    s = m1.c3;
+    dy = da = s = hn::Zero(Tag<S>());
+    c = set(S(1));
+    if (moved) {
+      const auto m1 = load_rows<S>([&](std::size_t i) { return &motions[slots[i]].dy; });
+      dy = m1.c0;
+      da = m1.c1;
+      c = m1.c2;
+      s = m1.c3;
+    }
     im = load(inv_mass);
     ii = load(inv_inertia);
   }
@@ -69,6 +74,7 @@ struct Lanes {
   using V = Vector<S>;
   ContactBlock<S>& block;
   const std::size_t lane;
+  const bool moved;  // bodies have, in this step: known when this is compiled
   Bodies<S> a, b;
   V nx, ny;
   V drift_along;  // m, of b against a since the start of the step
@@ -77,17 +83,31 @@ struct Lanes {
   V speed_along, speed_across;                                   // m/s, of b's centre against a's: along n, along t
   V push_along, push_across;                                     // N·s, applied so far in this pass
 
-  HWY_INLINE Lanes(const Motion<S>* motions, ContactBlock<S>& from, std::size_t first)
+  HWY_INLINE Lanes(const Motion<S>* motions, ContactBlock<S>& from, std::size_t first, bool have_moved)
       : block(from),
         lane(first),
-        a(motions, from.a + first, from.inv_mass_a + first, from.inv_inertia_a + first),
-        b(motions, from.b + first, from.inv_mass_b + first, from.inv_inertia_b + first),
+        moved(have_moved),
+        a(motions, from.a + first, from.inv_mass_a + first, from.inv_inertia_a + first, have_moved),
+        b(motions, from.b + first, from.inv_mass_b + first, from.inv_inertia_b + first, have_moved),
         nx(load(from.nx + first)),
         ny(load(from.ny + first)),
         between_along(load(from.between_along + first)),
         between_lever(load(from.between_lever + first)),
         push_along(hn::Zero(Tag<S>())),
         push_across(hn::Zero(Tag<S>())) {
+    const auto vx = hn::Sub(b.vx, a.vx), vy = hn::Sub(b.vy, a.vy);
+    speed_along = hn::Add(hn::Mul(vx, nx), hn::Mul(vy, ny));
+    speed_across = hn::Sub(hn::Mul(vx, ny), hn::Mul(vy, nx));
+    if (moved) {
+      find_shifts();
+    } else {
+      drift_along = shift_a_along = shift_a_lever = hn::Zero(Tag<S>());
+      shift_b_along = hn::Neg(between_along);
+      shift_b_lever = hn::Neg(between_lever);
+    }
+  }
+
+  HWY_INLINE void find_shifts() {
     const auto driftx = hn::Sub(b.dx, a.dx), drifty = hn::Sub(b.dy, a.dy);
     const auto drift2 = hn::Add(hn::Mul(driftx, driftx), hn::Mul(drifty, drifty));
     const auto follow = hn::Le(drift2, load(block.drift2_max + lane));
@@ -99,9 +119,6 @@ struct Lanes {
     shift_a_lever = hn::Mul(share_a, lever);
     shift_b_along = hn::Sub(shift_a_along, hn::Add(between_along, along));
     shift_b_lever = hn::Sub(shift_a_lever, hn::Add(between_lever, lever));
-    const auto vx = hn::Sub(b.vx, a.vx), vy = hn::Sub(b.vy, a.vy);
-    speed_along = hn::Add(hn::Mul(vx, nx), hn::Mul(vy, ny));
-    speed_across = hn::Sub(hn::Mul(vx, ny), hn::Mul(vy, nx));
   }
 
   HWY_INLINE void store_to(Motion<S>* motions) {
@@ -125,9 +142,9 @@ struct Arms {
   HWY_INLINE Arms(const Lanes<S>& k, const PointLanes<S>& p)
       : along(load(p.along + k.lane)),
         lever(load(p.lever + k.lane)),
-        normal_a(hn::Add(lever, k.shift_a_lever)),
+        normal_a(k.moved ? hn::Add(lever, k.shift_a_lever) : lever),
         normal_b(hn::Add(lever, k.shift_b_lever)),
-        tangent_a(hn::Neg(hn::Add(along, k.shift_a_along))),
+        tangent_a(hn::Neg(k.moved ? hn::Add(along, k.shift_a_along) : along)),
         tangent_b(hn::Neg(hn::Add(along, k.shift_b_along))) {}
 };
 
@@ -296,7 +313,7 @@ HWY_INLINE void take_lanes(const Motion<S>* motions, const ManifoldLanes<S>& m, 
                                 smaller(square(qx, qy), square(hn::Sub(qx, dx), hn::Sub(qy, dy))));
   store(hn::Mul(set(S(kDriftFraction * kDriftFraction)), shortest), block.drift2_max + i);
 
-  Lanes<S> k(motions, block, i);
+  Lanes<S> k(motions, block, i, false);
   take_point(k, p, rest.approach[0]);
   take_point(k, q, rest.approach[1]);
   const Arms<S> rp(k, p), rq(k, q);
@@ -325,7 +342,8 @@ HWY_INLINE void warm_start_lanes(Lanes<S>& k) {
 // m, of a point's surfaces now, negative if they overlap.
 template <class S>
 HWY_INLINE Vector<S> gap_of(const Lanes<S>& k, const PointLanes<S>& p, const Arms<S>& r) {
-  const auto one = set(S(1));
+  const auto separation = load(p.separation + k.lane), one = set(S(1));
+  if (!k.moved) return separation;
   // Where the anchors are now: of sharp shapes material points, turned with their bodies; of round ones the place on
   // the outline that looks along the normal, so that it is the centre of the rounding which has turned.
   const auto a_along = hn::Sub(r.along, load(k.block.round_a + k.lane));
@@ -333,7 +351,7 @@ HWY_INLINE Vector<S> gap_of(const Lanes<S>& k, const PointLanes<S>& p, const Arm
   const auto b_lever = hn::Sub(r.lever, k.between_lever);
   const auto turned_b = hn::Add(hn::Mul(hn::Sub(k.b.c, one), b_along), hn::Mul(k.b.s, b_lever));
   const auto turned_a = hn::Add(hn::Mul(hn::Sub(k.a.c, one), a_along), hn::Mul(k.a.s, r.lever));
-  return hn::Add(load(p.separation + k.lane), hn::Add(k.drift_along, hn::Sub(turned_b, turned_a)));
+  return hn::Add(separation, hn::Add(k.drift_along, hn::Sub(turned_b, turned_a)));
 }
 
 // What a point asks of its relative normal velocity: v + bias = −γ λ, where γ is its compliance. While it is closed the
@@ -517,7 +535,7 @@ void note_approach(const Motion<S>* motions, ContactBlock<S>* blocks, ContactBlo
     for (std::size_t lane = 0; lane < blocks[i].count; lane += width) {
       const auto restitution = load(rest[i].restitution + lane);
       if (hn::AllFalse(Tag<S>(), hn::Gt(restitution, hn::Zero(Tag<S>())))) continue;
-      const Lanes<S> k(motions, blocks[i], lane);
+      const Lanes<S> k(motions, blocks[i], lane, true);
       for (int point = 0; point < 2; ++point) {
         const PointLanes<S>& p = blocks[i].points[point];
         const Arms<S> r(k, p);
@@ -562,12 +580,12 @@ HWY_INLINE void restitute_lanes(Lanes<S>& k, const ContactBlockRest<S>& rest, Ki
 }
 
 // Calls work(lanes) for each vector of each block, in order, and writes velocities back.
-template <class S, class Work>
+template <class S, bool kMoved, class Work>
 HWY_INLINE void for_each_vector(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const Work& work) {
   const std::size_t width = hn::Lanes(Tag<S>());
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t lane = 0; lane < blocks[i].count; lane += width) {
-      Lanes<S> k(motions, blocks[i], lane);
+      Lanes<S> k(motions, blocks[i], lane, kMoved);
       work(k);
       k.store_to(motions);
     }
@@ -576,7 +594,7 @@ HWY_INLINE void for_each_vector(Motion<S>* motions, ContactBlock<S>* blocks, std
 
 template <class S>
 void warm_start(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const PassSettings<S>&) {
-  for_each_vector<S>(motions, blocks, count, [](Lanes<S>& k) HWY_ATTR { warm_start_lanes(k); });
+  for_each_vector<S, false>(motions, blocks, count, [](Lanes<S>& k) HWY_ATTR { warm_start_lanes(k); });
 }
 
 // What a point's friction may be bounded by before bodies move: its normal impulse, but for a shock. Friction turns a
@@ -589,9 +607,9 @@ HWY_INLINE Vector<S> without_shock(const Lanes<S>& k, const PointLanes<S>& p, Ve
 
 // Friction comes last in both passes: the bodies move by the velocities that the first one leaves, and what slides
 // between the bound of the sub-step before and this one's is never taken back.
-template <class S>
+template <class S, bool kMoved>
 void solve(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const PassSettings<S>& settings) {
-  for_each_vector<S>(motions, blocks, count, [&settings](Lanes<S>& k) HWY_ATTR {
+  for_each_vector<S, kMoved>(motions, blocks, count, [&settings](Lanes<S>& k) HWY_ATTR {
     solve_points<S, true>(k, Points<S>(k), settings,
                           [&k](const PointLanes<S>& p, Vector<S> before, Vector<S> now)
                               HWY_ATTR { return without_shock(k, p, before, now); });
@@ -602,7 +620,7 @@ void solve(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const
 // slope a little too slippery.
 template <class S, bool kLast>
 void relax(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const PassSettings<S>& settings) {
-  for_each_vector<S>(motions, blocks, count, [&settings](Lanes<S>& k) HWY_ATTR {
+  for_each_vector<S, true>(motions, blocks, count, [&settings](Lanes<S>& k) HWY_ATTR {
     const Points<S> at(k);
     const auto now = solve_points<S, false>(
         k, at, settings, [](const PointLanes<S>&, Vector<S>, Vector<S> normal) HWY_ATTR { return normal; });
@@ -625,7 +643,7 @@ void restitute(Motion<S>* motions, ContactBlock<S>* blocks, const ContactBlockRe
     for (std::size_t lane = 0; lane < blocks[i].count; lane += width) {
       const auto fastest = larger(load(rest[i].bounce[0] + lane), load(rest[i].bounce[1] + lane));
       if (hn::AllFalse(Tag<S>(), hn::Gt(fastest, hn::Zero(Tag<S>())))) continue;
-      Lanes<S> k(motions, blocks[i], lane);
+      Lanes<S> k(motions, blocks[i], lane, true);
       restitute_lanes(k, rest[i], kicks);
       k.store_to(motions);
     }
@@ -647,15 +665,9 @@ std::uint32_t meeting(const ContactBlock<S>& block, const ContactBlockRest<S>& r
 }
 
 template <class S>
-constexpr ContactPasses<S> kPasses{take<S>,
-                                   warm_start<S>,
-                                   solve<S>,
-                                   relax<S, false>,
-                                   relax<S, true>,
-                                   note_approach<S, false>,
-                                   note_approach<S, true>,
-                                   restitute<S>,
-                                   meeting<S>};
+constexpr ContactPasses<S> kPasses{take<S>,         warm_start<S>,  solve<S, false>,         solve<S, true>,
+                                   relax<S, false>, relax<S, true>, note_approach<S, false>, note_approach<S, true>,
+                                   restitute<S>,    meeting<S>};
 
 }  // namespace
 

@@ -31,12 +31,14 @@ struct ContactPasses {
   using Pass = void (*)(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count,
                         const PassSettings<S>& settings);
   // Takes over new manifolds: impulses are carried over by feature id; masses, coupling and approach speeds follow.
+  // Before bodies have moved in the step.
   void (*take)(const Motion<S>* motions, const ManifoldLanes<S>& manifolds, ContactBlock<S>& block,
                ContactBlockRest<S>& rest);
-  Pass warm_start;  // applies the impulses of the last step
-  Pass solve;       // with bias: pushes overlap apart
-  Pass relax;       // without; also keeps the totals, and adds to the kicks
-  Pass relax_last;  // in the last sub-step, which gives no kicks: lets the preloads follow instead
+  Pass warm_start;   // applies the impulses of the last step
+  Pass solve_first;  // with bias: pushes overlap apart. In the first sub-step, before bodies have moved
+  Pass solve;        // in the others
+  Pass relax;        // without; also keeps the totals, and adds to the kicks
+  Pass relax_last;   // in the last sub-step, which gives no kicks: lets the preloads follow instead
   // Before forces act and after: finds how fast points that close in have to leave.
   using Note = void (*)(const Motion<S>* motions, ContactBlock<S>* blocks, ContactBlockRest<S>* rest, std::size_t count,
                         const PassSettings<S>& settings);

@@ -202,7 +202,8 @@ void solve_soft_step(WorldData<S>& world, JointSet<S>& joint_set) {
     joints.warm_start();
     if (i == 0) run(&ContactPasses<S>::warm_start, Order::kForwards);
     joints.solve();
-    run(&ContactPasses<S>::solve, i % 2 == 0 ? Order::kForwards : Order::kBackwards);
+    run(i == 0 ? &ContactPasses<S>::solve_first : &ContactPasses<S>::solve,
+        i % 2 == 0 ? Order::kForwards : Order::kBackwards);
     integrate_positions(world, mover, h, body_grain);
     joints.relax();
     run(i + 1 < n ? &ContactPasses<S>::relax : &ContactPasses<S>::relax_last, Order::kBackwards);
