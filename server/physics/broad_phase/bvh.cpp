@@ -13,137 +13,107 @@ constexpr std::uint32_t kProxiesToShare = 256;
 constexpr std::uint32_t kNodesPerPart = 4;
 constexpr std::size_t kTasksPerShare = 4;
 
-// A part of a tree, or of two that are to be joined: under node x of tree a alone, or under x and under node y of b.
-template <class S>
-struct Branch {
-  std::uint32_t level, index;
-  Aabb<S> bounds;
-};
-template <class S>
-struct JoinTask {
-  Branch<S> x, y;
-  bool within;  // y says nothing
-};
-
-// Finds the overlapping pairs, of which one is marked, within a tree or between two. What lies at or below the level of
-// tasks can be left to be done later, by several side by side. Leaves that may hold pairs are gathered, and looked at
-// many at a time.
+// Finds the overlapping pairs, of which one is marked, within a tree or between two. Pairs of nodes that may hold some
+// wait by level until there are many, and are looked at side by side; what they lead to waits a level below.
 template <class S>
 class TreeJoin {
  public:
   using Tree = PackedTree<S>;
-  using Node = Box4<S>;
-  using Task = JoinTask<S>;
 
-  TreeJoin(const Tree& a, const Tree& b, bool fresh, PairSorter& pairs) : a_(a), b_(b), fresh_(fresh), pairs_(pairs) {}
+  // What is found goes to `pairs`; `fresh`: of new pairs alone.
+  TreeJoin(const Tree& a, const Tree& b, bool fresh, PairSorter& pairs)
+      : a_(a), b_(b), sought_(fresh ? Sought::kNewPairs : Sought::kPairs), pairs_(pairs) {}
 
-  // Lists what lies at or below this level, which is all of the join.
-  void list_tasks(std::uint32_t level, std::vector<Task>& tasks) {
-    task_level_ = level;
-    tasks_ = &tasks;
-    descend_all();
-    tasks_ = nullptr;
-  }
-  void run(const Task* begin, const Task* end) {
-    for (; begin != end; ++begin) begin->within ? within(begin->x.level, begin->x.index) : between(begin->x, begin->y);
-    look_at_leaves();
-  }
-
-  // All pairs of the join.
   void all() {
-    descend_all();
-    look_at_leaves();
+    begin();
+    look_at_all();
+  }
+  // The part that lies under these pairs of nodes of a level.
+  void run(std::uint32_t level, const NodePair* begin, const NodePair* end) {
+    for (; begin != end; ++begin) wait(level, begin->x, begin->y);
+    look_at_all();
+  }
+  // All pairs of nodes of this level, at or below both roots, that may hold pairs.
+  std::vector<NodePair> list(std::uint32_t level) {
+    std::vector<NodePair> out;
+    listed_level_ = level;
+    listed_ = &out;
+    begin();
+    look_at_all();
+    listed_ = nullptr;
+    return out;
   }
 
  private:
-  using Branch = urto::Branch<S>;
-  static constexpr std::size_t kLeavesMax = 256;  // gathered at a time
+  static constexpr std::size_t kWaitingMax = 256, kLevelsMax = 17;  // 4^17 lanes are more than there are proxies
+  struct Waiting {
+    std::size_t count = 0;
+    NodePair pairs[kWaitingMax];
+  };
 
-  void descend_all() { &a_ == &b_ ? within(a_.top_level(), 0) : all_between(); }
-
-  // Pairs under one node of tree a.
-  void within(std::uint32_t level, std::uint32_t index) {
-    if (tasks_ && level <= task_level_) return tasks_->push_back({{level, index, {}}, {}, true});
-    if (level == 0) return add_leaves(index, index);
-    const Node& boxes = a_.node(level, index);
-    const std::uint32_t marks = a_.marks(level, index);
-    for (int i = 0; i < 4; ++i) {
-      const std::uint32_t later = Node::kAll & ~((2u << i) - 1);
-      const std::uint32_t wanted = (marks >> i & 1u) != 0 ? Node::kAll : marks;
-      for (std::uint32_t hits = boxes.overlap_mask(boxes, i) & later & wanted; hits != 0; hits &= hits - 1) {
-        const int j = std::countr_zero(hits);
-        between({level - 1, child(index, i), boxes.get(i)}, {level - 1, child(index, j), boxes.get(j)});
-      }
-      if ((marks >> i & 1u) != 0) within(level - 1, child(index, i));
+  void begin() {
+    const std::uint32_t a = a_.top_level(), b = b_.top_level();
+    if (a >= b) {
+      descend(a_, a, 0, b_, b, [&](std::uint32_t x) { wait(b, x, 0); });
+    } else {
+      descend(b_, b, 0, a_, a, [&](std::uint32_t y) { wait(a, 0, y); });
     }
   }
 
-  // Pairs of one proxy of tree a and one of tree b.
-  void all_between() {
-    const std::uint32_t a = a_.top_level(), b = b_.top_level();
-    between({a, 0, a_.node(a, 0).bounds()}, {b, 0, b_.node(b, 0).bounds()});
+  // Calls visit(node) for those of the level of the lower tree's root, under a node of the higher one, that may hold
+  // partners.
+  template <class Visit>
+  static void descend(const Tree& tree, std::uint32_t level, std::uint32_t index, const Tree& other, std::uint32_t top,
+                      const Visit& visit) {
+    if (level == top) return visit(index);
+    std::uint32_t hits = tree.node(level, index).overlap_mask(other.node(top, 0).bounds());
+    if (other.marks(top, 0) == 0) hits &= tree.marks(level, index);
+    for (; hits != 0; hits &= hits - 1)
+      descend(tree, level - 1, child(index, std::countr_zero(hits)), other, top, visit);
   }
 
   static std::uint32_t child(std::uint32_t index, int lane) { return index * 4 + static_cast<std::uint32_t>(lane); }
 
-  // Pairs under node x of tree a and node y of tree b, of which one holds a mark.
-  void between(const Branch& x, const Branch& y) {
-    if (x.level > y.level) return descend(a_, x, b_, y, [&](const Branch& part) { between(part, y); });
-    if (y.level > x.level) return descend(b_, y, a_, x, [&](const Branch& part) { between(x, part); });
-    if (tasks_ && x.level <= task_level_) return tasks_->push_back({x, y, false});
-    if (x.level == 0) return add_leaves(x.index, y.index);
-    const Node& boxes_x = a_.node(x.level, x.index);
-    const Node& boxes_y = b_.node(y.level, y.index);
-    const std::uint32_t marks_x = a_.marks(x.level, x.index), marks_y = b_.marks(y.level, y.index);
-    const std::uint32_t near_x = boxes_y.overlap_mask(x.bounds);
-    for (std::uint32_t parts = boxes_x.overlap_mask(y.bounds); parts != 0; parts &= parts - 1) {
-      const int i = std::countr_zero(parts);
-      const std::uint32_t wanted = (marks_x >> i & 1u) != 0 ? near_x : near_x & marks_y;
-      if (wanted == 0) continue;
-      for (std::uint32_t hits = boxes_y.overlap_mask(boxes_x, i) & wanted; hits != 0; hits &= hits - 1) {
-        const int j = std::countr_zero(hits);
-        between({x.level - 1, child(x.index, i), boxes_x.get(i)}, {y.level - 1, child(y.index, j), boxes_y.get(j)});
-      }
-    }
+  void wait(std::uint32_t level, std::uint32_t x, std::uint32_t y) {
+    if (listed_ != nullptr && level == listed_level_) return listed_->push_back({x, y});
+    Waiting& waiting = waiting_[level];
+    waiting.pairs[waiting.count++] = {x, y};
+    if (waiting.count == kWaitingMax) look_at(level);
   }
 
-  // Calls next for each branch under `high` that may hold partners of `low`.
-  template <class Next>
-  static void descend(const Tree& tree, const Branch& high, const Tree& other, const Branch& low, Next&& next) {
-    const Node& boxes = tree.node(high.level, high.index);
-    std::uint32_t hits = boxes.overlap_mask(low.bounds);
-    if (other.marks(low.level, low.index) == 0) hits &= tree.marks(high.level, high.index);
-    for (; hits != 0; hits &= hits - 1) {
-      const int i = std::countr_zero(hits);
-      next(Branch{high.level - 1, child(high.index, i), boxes.get(i)});
-    }
+  void look_at_all() {
+    for (std::uint32_t level = kLevelsMax; level-- > 0;)
+      if (waiting_[level].count != 0) look_at(level);
   }
 
-  void add_leaves(std::uint32_t x, std::uint32_t y) {
-    leaves_[leaf_count_++] = {x, y};
-    if (leaf_count_ == kLeavesMax) look_at_leaves();
+  void look_at(std::uint32_t level) {
+    Waiting& waiting = waiting_[level];
+    NodeHit hits[kWaitingMax];
+    const std::size_t found =
+        tree_kernels<S>().meet(a_.nodes_at(level), b_.nodes_at(level), level == 0 ? sought_ : Sought::kBranches,
+                               waiting.pairs, waiting.count, hits);
+    waiting.count = 0;
+    for (std::size_t k = 0; k < found; ++k) take(level, hits[k]);
   }
 
-  void look_at_leaves() {
-    LeafHit hits[kLeavesMax];
-    const std::size_t found = tree_kernels<S>().meet(a_.leaves(), b_.leaves(), fresh_, leaves_, leaf_count_, hits);
-    leaf_count_ = 0;
-    for (std::size_t k = 0; k < found; ++k) {
-      for (std::uint32_t lanes = hits[k].lanes; lanes != 0; lanes &= lanes - 1) {
-        const int lane = std::countr_zero(lanes);
-        pairs_.add(a_.proxy(hits[k].leaves.x, lane / 4), b_.proxy(hits[k].leaves.y, lane % 4));
+  void take(std::uint32_t level, const NodeHit& hit) {
+    for (std::uint32_t lanes = hit.lanes; lanes != 0; lanes &= lanes - 1) {
+      const int lane = std::countr_zero(lanes), i = lane / 4, j = lane % 4;
+      if (level == 0) {
+        pairs_.add(a_.proxy(hit.nodes.x, i), b_.proxy(hit.nodes.y, j));
+      } else {
+        wait(level - 1, child(hit.nodes.x, i), child(hit.nodes.y, j));
       }
     }
   }
 
   const Tree& a_;
   const Tree& b_;
-  const bool fresh_;
+  const Sought sought_;
   PairSorter& pairs_;
-  std::uint32_t task_level_ = 0;
-  std::vector<Task>* tasks_ = nullptr;
-  LeafPair leaves_[kLeavesMax];
-  std::size_t leaf_count_ = 0;
+  std::uint32_t listed_level_ = 0;
+  std::vector<NodePair>* listed_ = nullptr;
+  Waiting waiting_[kLevelsMax];
 };
 
 // The highest level with nodes enough for all parts of a shared search to be about equal.
@@ -245,12 +215,12 @@ void Bvh<S>::join(const PackedTree<S>& a, const PackedTree<S>& b, bool fresh) co
   TreeJoin<S> whole(a, b, fresh, sorter_);
   const unsigned parts = this->team() ? this->team()->parts_max() : 1;
   if (parts == 1 || a.size() < kProxiesToShare) return whole.all();
-  std::vector<JoinTask<S>> tasks;
-  whole.list_tasks(task_level(a, kNodesPerPart * parts), tasks);
+  const std::uint32_t level = std::min(task_level(a, kNodesPerPart * parts), b.top_level());
+  const std::vector<NodePair> tasks = whole.list(level);
   if (sorters_.size() < parts) sorters_.resize(parts);
   for (PairSorter& sorter : sorters_) sorter.clear();
   this->team()->share(tasks.size(), kTasksPerShare, [&](unsigned part, std::size_t begin, std::size_t end) {
-    TreeJoin<S>(a, b, fresh, sorters_[part]).run(tasks.data() + begin, tasks.data() + end);
+    TreeJoin<S>(a, b, fresh, sorters_[part]).run(level, tasks.data() + begin, tasks.data() + end);
   });
   for (const PairSorter& sorter : sorters_) sorter_.add_all(sorter);
 }

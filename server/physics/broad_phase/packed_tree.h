@@ -58,7 +58,9 @@ class PackedTree {
   void settle_all();
   // They were nowhere: all pairs of the proxy are new.
   void forget(Proxy proxy);
-  Leaves<S> leaves() const { return {levels_[0].nodes.data(), before_.data(), levels_[0].marks.data()}; }
+  Nodes<S> nodes_at(std::uint32_t level) const {
+    return {levels_[level].nodes.data(), before_.data(), levels_[level].marks.data()};
+  }
 
   // Calls visit(proxy, bounds) for each proxy under boxes that `mask_of(node)` selects, by a bit a lane.
   template <class MaskOf, class Visit>

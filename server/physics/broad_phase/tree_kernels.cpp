@@ -17,15 +17,15 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr std::size_t kLeafPairs = 16;  // of proxies in a pair of leaves
+constexpr std::size_t kBoxPairs = 16;  // in a pair of nodes
 
 #if HWY_TARGET != HWY_SCALAR
 
-using Tag = hn::CappedTag<float, kLeafPairs>;
+using Tag = hn::CappedTag<float, kBoxPairs>;
 using Vector = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
-alignas(64) constexpr std::int32_t kLaneOfX[kLeafPairs] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+alignas(64) constexpr std::int32_t kLaneOfX[kBoxPairs] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 
 // Of four scalars the one that each pair has of x, from pair `first` on.
 HWY_INLINE Vector of_x(const float* four, std::size_t first) {
@@ -50,10 +50,10 @@ HWY_INLINE std::uint32_t bits_of(Mask mask) {
   return bits[0] | static_cast<std::uint32_t>(bits[1]) << 8;
 }
 
-HWY_INLINE std::uint32_t meeting(const Leaves<float>& a, const Leaves<float>& b, bool fresh, const LeafPair& pair) {
+HWY_INLINE std::uint32_t meeting(const Nodes<float>& a, const Nodes<float>& b, bool fresh, const NodePair& pair) {
   std::uint32_t out = 0;
-  for (std::size_t first = 0; first < kLeafPairs; first += hn::Lanes(Tag())) {
-    Mask met = overlap(a.now[pair.x], b.now[pair.y], first);
+  for (std::size_t first = 0; first < kBoxPairs; first += hn::Lanes(Tag())) {
+    Mask met = overlap(a.boxes[pair.x], b.boxes[pair.y], first);
     if (fresh) met = hn::AndNot(overlap(a.before[pair.x], b.before[pair.y], first), met);
     out |= bits_of(met) << first;
   }
@@ -70,8 +70,8 @@ std::uint32_t overlap(const Box4<S>& x, const Box4<S>& y) {
 }
 
 template <class S>
-std::uint32_t meeting(const Leaves<S>& a, const Leaves<S>& b, bool fresh, const LeafPair& pair) {
-  const std::uint32_t met = overlap(a.now[pair.x], b.now[pair.y]);
+std::uint32_t meeting(const Nodes<S>& a, const Nodes<S>& b, bool fresh, const NodePair& pair) {
+  const std::uint32_t met = overlap(a.boxes[pair.x], b.boxes[pair.y]);
   return fresh && met != 0 ? met & ~overlap(a.before[pair.x], b.before[pair.y]) : met;
 }
 
@@ -82,16 +82,19 @@ constexpr std::uint32_t rows(std::uint32_t marks) {
 }
 static_assert(rows(0b1010) == 0xf0f0);
 constexpr std::uint32_t kEachOnce = 0x08ce;  // lanes j of y above lane i of x
+constexpr std::uint32_t kEachWithItself = 0x8421;
 
 template <class S>
-std::size_t meet(const Leaves<S>& a, const Leaves<S>& b, bool fresh, const LeafPair* pairs, std::size_t count,
-                 LeafHit* hits) {
+std::size_t meet(const Nodes<S>& a, const Nodes<S>& b, Sought sought, const NodePair* pairs, std::size_t count,
+                 NodeHit* hits) {
+  const std::uint32_t of_one = kEachOnce | (sought == Sought::kBranches ? kEachWithItself : 0u);
   std::size_t found = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    const LeafPair& pair = pairs[k];
+    const NodePair& pair = pairs[k];
     const std::uint32_t wanted = rows(a.marks[pair.x]) | b.marks[pair.y] * kOneOfEachRow;
-    const bool same = a.now == b.now && pair.x == pair.y;
-    const std::uint32_t lanes = meeting(a, b, fresh, pair) & wanted & (same ? kEachOnce : 0xffffu);
+    const bool same = a.boxes == b.boxes && pair.x == pair.y;
+    const std::uint32_t met = meeting(a, b, sought == Sought::kNewPairs, pair);
+    const std::uint32_t lanes = met & wanted & (same ? of_one : 0xffffu);
     hits[found] = {pair, lanes};
     found += lanes != 0 ? 1 : 0;
   }

@@ -12,20 +12,20 @@
 namespace urto {
 namespace {
 
-constexpr std::uint32_t kLeafCount = 12;
+constexpr std::uint32_t kNodeCount = 12;
 
-// Leaves with boxes here and there, some lanes empty, some marked.
+// Nodes with boxes here and there, some lanes empty, some marked.
 template <class S>
-struct RandomLeaves {
-  std::vector<Box4<S>> now = std::vector<Box4<S>>(kLeafCount), before = now;
+struct RandomNodes {
+  std::vector<Box4<S>> now = std::vector<Box4<S>>(kNodeCount), before = now;
   std::vector<std::uint8_t> marks;
 
-  explicit RandomLeaves(std::mt19937& random) {
-    for (std::uint32_t leaf = 0; leaf < kLeafCount; ++leaf) {
+  explicit RandomNodes(std::mt19937& random) {
+    for (std::uint32_t node = 0; node < kNodeCount; ++node) {
       marks.push_back(static_cast<std::uint8_t>(random() % 16));
       for (int lane = 0; lane < 4; ++lane) {
-        if (random() % 8 != 0) now[leaf].set(lane, box(random));
-        if (random() % 8 != 0) before[leaf].set(lane, random() % 2 == 0 ? now[leaf].get(lane) : box(random));
+        if (random() % 8 != 0) now[node].set(lane, box(random));
+        if (random() % 8 != 0) before[node].set(lane, random() % 2 == 0 ? now[node].get(lane) : box(random));
       }
     }
   }
@@ -35,21 +35,21 @@ struct RandomLeaves {
     const Vec<S> low(at(), at());
     return {low, low + Vec<S>(at() / 2, at() / 2)};
   }
-  Leaves<S> view() const { return {now.data(), before.data(), marks.data()}; }
-  bool marked(std::uint32_t leaf, int lane) const { return (marks[leaf] >> lane & 1) != 0; }
+  Nodes<S> view() const { return {now.data(), before.data(), marks.data()}; }
+  bool marked(std::uint32_t node, int lane) const { return (marks[node] >> lane & 1) != 0; }
 };
 
 using Found = std::set<std::tuple<std::uint32_t, std::uint32_t, int, int>>;
 
 template <class S>
-Found expected(const RandomLeaves<S>& a, const RandomLeaves<S>& b, bool fresh, const LeafPair& pair) {
+Found expected(const RandomNodes<S>& a, const RandomNodes<S>& b, Sought sought, const NodePair& pair) {
   Found out;
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j) {
-      if (&a == &b && pair.x == pair.y && j <= i) continue;
+      if (&a == &b && pair.x == pair.y && (j < i || (j == i && sought != Sought::kBranches))) continue;
       if (!a.marked(pair.x, i) && !b.marked(pair.y, j)) continue;
       if (!a.now[pair.x].get(i).overlaps(b.now[pair.y].get(j))) continue;
-      if (fresh && a.before[pair.x].get(i).overlaps(b.before[pair.y].get(j))) continue;
+      if (sought == Sought::kNewPairs && a.before[pair.x].get(i).overlaps(b.before[pair.y].get(j))) continue;
       out.emplace(pair.x, pair.y, i, j);
     }
   }
@@ -57,23 +57,23 @@ Found expected(const RandomLeaves<S>& a, const RandomLeaves<S>& b, bool fresh, c
 }
 
 template <class S>
-std::size_t compare(const RandomLeaves<S>& a, const RandomLeaves<S>& b, bool fresh) {
-  std::vector<LeafPair> pairs;
+std::size_t compare(const RandomNodes<S>& a, const RandomNodes<S>& b, Sought sought) {
+  std::vector<NodePair> pairs;
   Found wanted, found;
-  for (std::uint32_t x = 0; x < kLeafCount; ++x) {
-    for (std::uint32_t y = &a == &b ? x : 0; y < kLeafCount; ++y) {
+  for (std::uint32_t x = 0; x < kNodeCount; ++x) {
+    for (std::uint32_t y = &a == &b ? x : 0; y < kNodeCount; ++y) {
       pairs.push_back({x, y});
-      wanted.merge(expected(a, b, fresh, pairs.back()));
+      wanted.merge(expected(a, b, sought, pairs.back()));
     }
   }
-  std::vector<LeafHit> hits(pairs.size());
-  hits.resize(tree_kernels<S>().meet(a.view(), b.view(), fresh, pairs.data(), pairs.size(), hits.data()));
-  for (const LeafHit& hit : hits) {
+  std::vector<NodeHit> hits(pairs.size());
+  hits.resize(tree_kernels<S>().meet(a.view(), b.view(), sought, pairs.data(), pairs.size(), hits.data()));
+  for (const NodeHit& hit : hits) {
     EXPECT_NE(hit.lanes, 0u);
     for (int lane = 0; lane < 16; ++lane)
-      if ((hit.lanes >> lane & 1u) != 0) found.emplace(hit.leaves.x, hit.leaves.y, lane / 4, lane % 4);
+      if ((hit.lanes >> lane & 1u) != 0) found.emplace(hit.nodes.x, hit.nodes.y, lane / 4, lane % 4);
   }
-  EXPECT_EQ(found, wanted) << (fresh ? "new pairs" : "all pairs");
+  EXPECT_EQ(found, wanted) << "sought " << static_cast<int>(sought);
   return wanted.size();
 }
 
@@ -81,9 +81,10 @@ template <class S>
 std::size_t compare_all(std::uint32_t seed) {
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random(seed);
-  const RandomLeaves<S> a(random), b(random);
+  const RandomNodes<S> a(random), b(random);
   std::size_t met = 0;
-  for (const bool fresh : {false, true}) met += compare(a, a, fresh) + compare(a, b, fresh);
+  for (const Sought sought : {Sought::kBranches, Sought::kPairs, Sought::kNewPairs})
+    met += compare(a, a, sought) + compare(a, b, sought);
   return met;
 }
 
@@ -94,7 +95,7 @@ void compare_refit(std::uint32_t seed, std::size_t count) {
   std::vector<Box4<S>> children(count), parents((count + 3) / 4), expected = parents;
   for (Box4<S>& child : children)
     for (int lane = 0; lane < 4; ++lane)
-      if (random() % 3 != 0) child.set(lane, RandomLeaves<S>::box(random));
+      if (random() % 3 != 0) child.set(lane, RandomNodes<S>::box(random));
   double cost = 0;
   for (std::size_t k = 0; k < count; ++k) {
     const Aabb<S> box = children[k].bounds();
