@@ -62,7 +62,10 @@ class Followed {
       const Body<S>& body = world_.bodies[slots[i]];
       if (!has_kernel(world_, body)) continue;
       together |= 1u << i;
-      for (Proxy p = body.first_shape; p != kNone; p = world_.shapes[p].next) proxies_.push_back(p);
+      for (Proxy p = body.first_shape; p != kNone; p = world_.shapes[p].next) {
+        proxies_.push_back(p);
+        __builtin_prefetch(&world_.convexes[p].centroid);  // lies about in memory, and is asked for first
+      }
     }
     for (std::size_t i = 0; i < proxies_.size(); i += kBlock)
       left_.push_back(motion_kernels<S>().follow(ends_, &proxies_[i], std::min(kBlock, proxies_.size() - i)));
