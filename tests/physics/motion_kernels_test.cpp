@@ -346,8 +346,8 @@ TEST(MotionKernelsTest, NameWhatLeavesItsBoundsAtEveryWidth) {
     }
   }
   use_simd_target(0);
-  EXPECT_GT(leavers.left, 500);
-  EXPECT_GT(leavers.stayed, 500);
+  EXPECT_GT(leavers.left, 100);
+  EXPECT_GT(leavers.stayed, 100);
   EXPECT_LT(leavers.asked_in_vain, leavers.stayed / 50);
 }
 
