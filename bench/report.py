@@ -17,7 +17,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from building import ROOT, about_machine, fail, say  # noqa: E402
-from reporting import diagrams, measure, pages, plan  # noqa: E402
+from reporting import diagrams, equal_cost, measure, pages, plan  # noqa: E402
 from reporting.notes import Notes  # noqa: E402
 
 Record = dict[str, Any]
@@ -170,6 +170,7 @@ def accuracy_page(
         "",
         "![Order of the integrators](diagrams/order.svg)",
         "",
+        *equal_cost.section(cases, results),
         "## The whole",
         "",
         "![Share of the cases within a factor of the level](diagrams/profile.svg)",

@@ -12,7 +12,7 @@ Record = dict[str, Any]
 Results = dict[str, list[Record]]  # by case
 
 
-def _number(value: float | None) -> str:
+def number(value: float | None) -> str:
     if value is None:
         return "∞"
     return "0" if value == 0 else f"{value:.3g}"
@@ -29,12 +29,12 @@ def _cell(record: Record | None, level: float | None = None) -> str:
         return "–"
     if "failed" in record:
         words = "too long" if "took" in record["failed"] else "failed"
-        return words if level is None else f"{words} ✗ {_number(level)}"
-    text = _number(record["error"])
+        return words if level is None else f"{words} ✗ {number(level)}"
+    text = number(record["error"])
     if level is None:
         return text
     met = record["error"] is not None and record["error"] <= level
-    return f"{text} {'✓' if met else '✗'} {_number(level)}"
+    return f"{text} {'✓' if met else '✗'} {number(level)}"
 
 
 def pipes(head: Sequence[str], lines: Sequence[Sequence[str]]) -> list[str]:

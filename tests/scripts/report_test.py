@@ -9,7 +9,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "bench"))
 
-from reporting import measure, notes, pages, plan  # noqa: E402
+from reporting import equal_cost, measure, notes, pages, plan  # noqa: E402
 
 CASE = {"row": 3, "case": "bounce", "curves": "solvers", "long": False, "levels": {"default": 0.1, "verlet": 0.2}}
 
@@ -127,3 +127,29 @@ def test_every_beginning_of_the_order_is_spread_over_the_whole(count):
     for begun in (count // 10, count // 3):
         below = sum(i < count / 2 for i in order[:begun])
         assert abs(below - begun / 2) <= 2
+
+
+def timed(engine, method, error, cost):
+    return {"engine": engine, "case": "bounce", "method": method, "curve": "x", "error": error, "cpu_s_per_s": cost}
+
+
+def test_a_peer_is_ahead_only_where_nothing_as_cheap_errs_as_little():
+    own = [timed("urto", "default", 0.1, 1.0), timed("urto", "precise", 1e-14, 8.0), timed("urto", "wild", None, 0.1)]
+    peer = [
+        timed("box2d_v3", "dearer and worse", 0.2, 2.0),
+        timed("box2d_v3", "better", 0.05, 1.0),
+        timed("box2d_v3", "cheaper", 0.5, 0.5),
+        timed("box2d_v3", "rounding", 1e-15, 8.0),
+        timed("box2d_v3", "within the spread of times", 0.1, 0.9),
+        timed("box2d_v3", "no number", None, 0.2),
+    ]
+    total, ahead = equal_cost.compare([CASE], {"bounce": own + peer})
+    assert total == len(peer)
+    assert [point["method"] for each in ahead for point in each.points] == ["better", "cheaper"]
+    page = "\n".join(equal_cost.section([CASE], {"bounce": own + peer}))
+    assert "For 4 of the 6 points" in page and "| better | 0.05 | 1 | 0.1 |" in page
+
+
+def test_a_point_cheaper_than_all_of_ours_has_nothing_beside_it():
+    records = [timed("urto", "default", 0.1, 1.0), timed("rapier", "default", 0.5, 0.25)]
+    assert "nothing as cheap" in "\n".join(equal_cost.section([CASE], {"bounce": records}))
