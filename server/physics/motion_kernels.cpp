@@ -316,42 +316,59 @@ HWY_INLINE BlockEnd end_vector(const StepEnd<S>& world, const std::uint32_t* slo
   return end;
 }
 
+// As many shapes as a vector has lanes, with their bodies. Lanes from `count` on are nobody's.
+template <class S>
+struct SomeShapes {
+  const StepEnd<S>& world;
+  const std::uint32_t* proxies;
+  std::size_t count;
+  Nobody<S>& nobody;
+
+  Shape<S>* shape(std::size_t i) const { return i < count ? &world.shapes[proxies[i]] : &nobody.shape; }
+  Place<S>* place(std::size_t i) const { return i < count ? &world.places[proxies[i]] : &nobody.place; }
+  auto rows(std::size_t i) const { return i < count ? world.outlines[proxies[i]].rows : nobody.outline.rows; }
+  const Convex<S>* convex(std::size_t i) const { return i < count ? &world.convexes[proxies[i]] : &nobody.convex; }
+  const Body<S>* body(std::size_t i) const { return i < count ? &world.bodies[shape(i)->body] : &nobody.body; }
+  const Motion<S>* motion(std::size_t i) const { return i < count ? &world.motions[shape(i)->body] : &nobody.motion; }
+  std::uint32_t lanes() const { return (1u << (count < hn::Lanes(Tag<S>()) ? count : hn::Lanes(Tag<S>()))) - 1; }
+};
+
 // Of shapes whose bodies have ended their step.
 template <class S>
-HWY_INLINE std::uint32_t follow_shapes(const StepEnd<S>& world, const std::uint32_t* proxies, std::size_t count,
-                                       Nobody<S>& nobody) {
-  const auto shape = [&](std::size_t i) { return i < count ? &world.shapes[proxies[i]] : &nobody.shape; };
-  const auto place = [&](std::size_t i) { return i < count ? &world.places[proxies[i]] : &nobody.place; };
-  const auto rows_of = [&](std::size_t i) { return i < count ? world.outlines[proxies[i]].rows : nobody.outline.rows; };
-  const auto body = [&](std::size_t i) { return i < count ? &world.bodies[shape(i)->body] : &nobody.body; };
-  const auto motion = [&](std::size_t i) { return i < count ? &world.motions[shape(i)->body] : &nobody.motion; };
-  const auto convex = [&](std::size_t i) { return i < count ? &world.convexes[proxies[i]] : &nobody.convex; };
-  const auto m0 = load_rows<S>([&](std::size_t i) { return &motion(i)->vx; });
-  const auto b0 = load_rows<S>([&](std::size_t i) { return &body(i)->x; });
-  const auto b1 = load_rows<S>([&](std::size_t i) { return &body(i)->s; });
-  const auto b4 = load_rows<S>([&](std::size_t i) { return &body(i)->torque; });
-  const auto p1 = load_rows<S>([&](std::size_t i) { return &place(i)->half_width; });
-  const auto middle = load_rows<S>([&](std::size_t i) { return convex(i)->centroid.data(); });
-  const auto c = b0.c3, s = b1.c0, time_step = set(world.time_step);
+HWY_INLINE std::uint32_t follow_shapes(const SomeShapes<S>& of) {
+  const auto m0 = load_rows<S>([&](std::size_t i) { return &of.motion(i)->vx; });
+  const auto b0 = load_rows<S>([&](std::size_t i) { return &of.body(i)->x; });
+  const auto b1 = load_rows<S>([&](std::size_t i) { return &of.body(i)->s; });
+  const auto b4 = load_rows<S>([&](std::size_t i) { return &of.body(i)->torque; });
+  const auto p1 = load_rows<S>([&](std::size_t i) { return &of.place(i)->half_width; });
+  const auto middle = load_rows<S>([&](std::size_t i) { return of.convex(i)->centroid.data(); });
+  const auto c = b0.c3, s = b1.c0, time_step = set(of.world.time_step);
   const auto arm_x = hn::Sub(middle.c0, b1.c1), arm_y = hn::Sub(middle.c1, b1.c2);
   const auto offset_x = hn::Sub(hn::Mul(c, arm_x), hn::Mul(s, arm_y));
   const auto offset_y = hn::Add(hn::Mul(s, arm_x), hn::Mul(c, arm_y));
-  store_rows<S>({p1.c0, p1.c1, offset_x, offset_y}, [&](std::size_t i) { return &place(i)->half_width; });
+  store_rows<S>({p1.c0, p1.c1, offset_x, offset_y}, [&](std::size_t i) { return &of.place(i)->half_width; });
   const auto turn = hn::Mul(hn::Mul(hn::Abs(m0.c2), b4.c2), time_step);
   const Following<S> to{hn::Add(b0.c0, offset_x),  hn::Add(b0.c1, offset_y),  c,    s,
                         hn::Mul(m0.c0, time_step), hn::Mul(m0.c1, time_step), turn, b4.c2};
-  const std::uint32_t lanes = (1u << (count < hn::Lanes(Tag<S>()) ? count : hn::Lanes(Tag<S>()))) - 1;
-  return follow_vector<S>(place, shape, rows_of, to, lanes);
+  return follow_vector<S>([&](std::size_t i) { return of.place(i); }, [&](std::size_t i) { return of.shape(i); },
+                          [&](std::size_t i) { return of.rows(i); }, to, of.lanes());
+}
+
+// Calls work(shapes) for each vector of as many shapes; what it answers, a bit a shape.
+template <class S, class Work>
+HWY_INLINE std::uint32_t for_each_vector(const StepEnd<S>& world, const std::uint32_t* proxies, std::size_t count,
+                                         const Work& work) {
+  Nobody<S> nobody;
+  std::uint32_t found = 0;
+  const std::size_t width = hn::Lanes(Tag<S>());
+  for (std::size_t lane = 0; lane < count; lane += width)
+    found |= work(SomeShapes<S>{world, proxies + lane, count - lane, nobody}) << lane;
+  return found;
 }
 
 template <class S>
 std::uint32_t follow(const StepEnd<S>& world, const std::uint32_t* proxies, std::size_t count) {
-  Nobody<S> nobody;
-  std::uint32_t left = 0;
-  const std::size_t width = hn::Lanes(Tag<S>());
-  for (std::size_t lane = 0; lane < count; lane += width)
-    left |= follow_shapes(world, proxies + lane, count - lane, nobody) << lane;
-  return left;
+  return for_each_vector(world, proxies, count, [](const SomeShapes<S>& of) HWY_ATTR { return follow_shapes(of); });
 }
 
 template <class S>
@@ -371,27 +388,22 @@ BlockEnd end_step(const StepEnd<S>& world, const std::uint32_t* slots, std::size
 // The way of a shape is within the boxes around it at its start and at its end and a little more for the arc between
 // (bounds.cpp says how much), and a little more still for rounding.
 template <class S>
-HWY_INLINE std::uint32_t leaving_vector(const StepEnd<S>& world, const std::uint32_t* proxies, std::size_t count,
-                                        Nobody<S>& nobody) {
-  const auto shape = [&](std::size_t i) { return i < count ? &world.shapes[proxies[i]] : &nobody.shape; };
-  const auto place = [&](std::size_t i) { return i < count ? &world.places[proxies[i]] : &nobody.place; };
-  const auto rows_of = [&](std::size_t i) { return i < count ? world.outlines[proxies[i]].rows : nobody.outline.rows; };
-  const auto body = [&](std::size_t i) { return i < count ? &world.bodies[shape(i)->body] : &nobody.body; };
-  const auto motion = [&](std::size_t i) { return i < count ? &world.motions[shape(i)->body] : &nobody.motion; };
-  const auto m0 = load_rows<S>([&](std::size_t i) { return &motion(i)->vx; });
-  const auto m1 = load_rows<S>([&](std::size_t i) { return &motion(i)->dy; });
-  const auto b0 = load_rows<S>([&](std::size_t i) { return &body(i)->x; });
-  const auto b4 = load_rows<S>([&](std::size_t i) { return &body(i)->torque; });
-  const auto p0 = load_rows<S>([&](std::size_t i) { return &place(i)->x; });
-  const auto p1 = load_rows<S>([&](std::size_t i) { return &place(i)->half_width; });
-  const auto p3 = load_rows<S>([&](std::size_t i) { return &place(i)->way_x; });
-  const auto fat = load_rows<S>([&](std::size_t i) { return shape(i)->fat.lower.data(); });
+HWY_INLINE std::uint32_t leaving_shapes(const SomeShapes<S>& of) {
+  const auto m0 = load_rows<S>([&](std::size_t i) { return &of.motion(i)->vx; });
+  const auto m1 = load_rows<S>([&](std::size_t i) { return &of.motion(i)->dy; });
+  const auto b0 = load_rows<S>([&](std::size_t i) { return &of.body(i)->x; });
+  const auto b4 = load_rows<S>([&](std::size_t i) { return &of.body(i)->torque; });
+  const auto p0 = load_rows<S>([&](std::size_t i) { return &of.place(i)->x; });
+  const auto p1 = load_rows<S>([&](std::size_t i) { return &of.place(i)->half_width; });
+  const auto p3 = load_rows<S>([&](std::size_t i) { return &of.place(i)->way_x; });
+  const auto fat = load_rows<S>([&](std::size_t i) { return of.shape(i)->fat.lower.data(); });
   const auto vertices = hn::Abs(p3.c2), disc = b4.c2;
   const auto turn_c = m1.c2, turn_s = m1.c3;
   const auto c = hn::Sub(hn::Mul(turn_c, p0.c2), hn::Mul(turn_s, p0.c3));
   const auto s = hn::Add(hn::Mul(turn_s, p0.c2), hn::Mul(turn_c, p0.c3));
   const auto x = hn::Add(hn::Add(b0.c0, m0.c3), hn::Sub(hn::Mul(turn_c, p1.c2), hn::Mul(turn_s, p1.c3)));
   const auto y = hn::Add(hn::Add(b0.c1, m1.c0), hn::Add(hn::Mul(turn_s, p1.c2), hn::Mul(turn_c, p1.c3)));
+  const auto rows_of = [&](std::size_t i) { return of.rows(i); };
   const Extents<S> start(p1, vertices, p0.c2, p0.c3, disc, rows_of), end(p1, vertices, c, s, disc, rows_of);
   const auto turn = hn::Abs(m1.c1);
   const auto more = hn::Mul(disc, hn::Add(hn::Mul(set(S(0.125)), square<S>(turn)), set(S(kDiscSlack))));
@@ -402,18 +414,12 @@ HWY_INLINE std::uint32_t leaving_vector(const StepEnd<S>& world, const std::uint
   const auto inside = hn::And(hn::And(hn::Ge(low_x, fat.c0), hn::Ge(low_y, fat.c1)),
                               hn::And(hn::Le(high_x, fat.c2), hn::Le(high_y, fat.c3)));
   const auto known = hn::And(hn::Gt(vertices, hn::Zero(Tag<S>())), hn::Le(turn, set(S(1))));
-  const std::uint32_t lanes = (1u << (count < hn::Lanes(Tag<S>()) ? count : hn::Lanes(Tag<S>()))) - 1;
-  return lanes & ~bits_of<S>(hn::And(inside, known));
+  return of.lanes() & ~bits_of<S>(hn::And(inside, known));
 }
 
 template <class S>
 std::uint32_t leaving(const StepEnd<S>& world, const std::uint32_t* proxies, std::size_t count) {
-  Nobody<S> nobody;
-  std::uint32_t found = 0;
-  const std::size_t width = hn::Lanes(Tag<S>());
-  for (std::size_t lane = 0; lane < count; lane += width)
-    found |= leaving_vector(world, proxies + lane, count - lane, nobody) << lane;
-  return found;
+  return for_each_vector(world, proxies, count, [](const SomeShapes<S>& of) HWY_ATTR { return leaving_shapes(of); });
 }
 
 template <class S>
