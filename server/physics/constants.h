@@ -29,6 +29,12 @@ inline constexpr double kGroundStiffness = 2.0;
 // boxes begin to swing, because the load reaches the ground more slowly than the preload chases it; longer, and they
 // recover late. Measured in docs/decisions/0008.
 inline constexpr double kPreloadTime = 12.0;  // s
+// The time on top where contacts are few in a row and their load is found soon: of masses that differ, and with ground
+// that is sunk into. Shorter, and a box under a thousandfold one is thrown out (docs/decisions/0002).
+inline constexpr double kPreloadTimeFast = 1.0;  // s
+inline constexpr double kUnevenMasses = 8.0;     // the heavier one's mass over the lighter's; in full at twice that
+inline constexpr double kSunkDepth = 4e-3;       // m, into what does not move; in full at twice that
+inline constexpr double kSteadyChange = 1e-3;    // of an impulse, from a step's mean to its last sub-step: half as fast
 
 // A normal impulse that grows by more than this speed in a sub-step is a shock: its friction waits until bodies have
 // moved.

@@ -436,8 +436,8 @@ HWY_INLINE TwoImpulses<Vector<S>> solve_normals(const Lanes<S>& k, const Arms<S>
   return solve_two<S>(k11, n.coupling, k22, q1, q2);
 }
 
-// N·s: a bound of friction below this is none.
-constexpr double kFrictionMin = 1e-30;
+// N·s of impulses, 1/kg of inverse masses: what is below this is none.
+constexpr double kNearZero = 1e-30;
 
 // λ where surfaces slide at `speed` over each other, within ±bound.
 template <class S>
@@ -465,7 +465,7 @@ HWY_INLINE PointImpulses<S> solve_points(Lanes<S>& k, const Points<S>& at, const
     const auto bound_1 = hn::Mul(friction, bound(p1, n.before.first, next.first));
     const auto bound_2 = hn::Mul(friction, bound(p2, n.before.second, next.second));
     const auto bounds = hn::Add(bound_1, bound_2);
-    const auto inverse = hn::Div(set(S(1)), larger(bounds, set(S(kFrictionMin))));
+    const auto inverse = hn::Div(set(S(1)), larger(bounds, set(S(kNearZero))));
     const auto share_1 = hn::Mul(bound_1, inverse), share_2 = hn::Mul(bound_2, inverse);
     const auto mean = [&](auto first, auto second)
                           HWY_ATTR { return hn::Add(hn::Mul(share_1, first), hn::Mul(share_2, second)); };
@@ -494,20 +494,60 @@ HWY_INLINE Vector<S> add_to_totals(const Lanes<S>& k, PointLanes<S>& p, Vector<S
   return total;
 }
 
+// What share of its faster rate a preload takes, by where its contact is. A light body that carries a heavy one sinks
+// far before the slow rate has taken that back, and so it does into the ground. Between bodies of a kind the slow rate
+// stays: in a pyramid loads have many ways down, and preloads that chase them drive its rows apart.
+template <class S>
+HWY_INLINE Vector<S> eagerness(const Lanes<S>& k, const PointLanes<S>& p, const Arms<S>& r) {
+  const auto zero = hn::Zero(Tag<S>());
+  const auto share_of = [&](auto x) HWY_ATTR { return larger(zero, smaller(set(S(1)), x)); };
+  const auto of_lighter = larger(k.a.im, k.b.im), of_heavier = smaller(k.a.im, k.b.im);
+  const auto even = hn::Mul(set(S(kUnevenMasses)), of_heavier), depth = set(S(kSunkDepth));
+  const auto uneven = share_of(hn::Div(hn::Sub(of_lighter, even), larger(even, set(S(kNearZero)))));
+  const auto sunk = share_of(hn::Div(hn::Sub(hn::Neg(gap_of(k, p, r)), depth), depth));
+  return hn::IfThenElse(hn::Gt(of_heavier, zero), uneven, sunk);
+}
+
+// Whether any of the lanes can be eager at all: between bodies of a kind, which is what most are, there is no more to
+// do.
+template <class S>
+HWY_INLINE bool any_eager(const Lanes<S>& k) {
+  const auto even = hn::Mul(set(S(kUnevenMasses)), smaller(k.a.im, k.b.im));
+  return !hn::AllFalse(Tag<S>(), hn::Gt(larger(k.a.im, k.b.im), even));
+}
+
+// 1 where the impulse stays as it is, 0 where it changes. A preload must not race the solver: while a load is still on
+// its way down by iterations, or swings, what a point carries now is not what rests on it.
+template <class S>
+HWY_INLINE Vector<S> steadiness(Vector<S> mean, Vector<S> last) {
+  const auto still = larger(hn::Mul(set(S(kSteadyChange)), mean), set(S(kNearZero)));
+  const auto change = hn::Div(hn::Sub(last, mean), still);
+  return hn::Div(set(S(1)), hn::Add(set(S(1)), hn::Mul(change, change)));
+}
+
 // At the end of a step preloads follow its mean impulse, and that of both points where there are two: where a body
 // rests on more points than it needs, nothing tells how they share its weight, and preloads that follow each share
 // wander off.
 template <class S>
-HWY_INLINE void follow_loads(const Lanes<S>& k, const TwoImpulses<Vector<S>>& totals, const PassSettings<S>& settings) {
+HWY_INLINE void follow_loads(const Lanes<S>& k, const Points<S>& at, const TwoImpulses<Vector<S>>& totals,
+                             const TwoImpulses<Vector<S>>& last, const PassSettings<S>& settings) {
   PointLanes<S>&p = k.block.points[0], &q = k.block.points[1];
   const auto two = hn::Lt(load(q.separation + k.lane), set(S(kFarSeparation)));
   const auto half = hn::Mul(set(S(0.5)), hn::Add(totals.first, totals.second));
-  const auto follow = [&](PointLanes<S>& point, auto total) HWY_ATTR {
-    const auto mean = hn::Mul(set(settings.sub_step_share), total), preload = load(point.preload + k.lane);
-    store(hn::Add(preload, hn::Mul(set(settings.preload_rate), hn::Sub(mean, preload))), point.preload + k.lane);
+  const auto half_of_last = hn::Mul(set(S(0.5)), hn::Add(last.first, last.second));
+  const bool eager = any_eager(k);
+  const auto follow = [&](PointLanes<S>& point, const Arms<S>& r, auto total, auto now) HWY_ATTR {
+    const auto mean = hn::Mul(set(settings.sub_step_share), hn::IfThenElse(two, half, total));
+    auto rate = set(settings.preload_rate);
+    if (eager) {
+      const auto steady = steadiness<S>(mean, hn::IfThenElse(two, half_of_last, now));
+      rate = hn::Add(rate, hn::Mul(set(settings.preload_rate_more), hn::Mul(eagerness(k, point, r), steady)));
+    }
+    const auto preload = load(point.preload + k.lane);
+    store(hn::Add(preload, hn::Mul(rate, hn::Sub(mean, preload))), point.preload + k.lane);
   };
-  follow(p, hn::IfThenElse(two, half, totals.first));
-  follow(q, hn::IfThenElse(two, half, totals.second));
+  follow(p, at.r1, totals.first, last.first);
+  follow(q, at.r2, totals.second, last.second);
 }
 
 // The speed at which restitution lets a point leave that closes in at `now` (m/s < 0) after forces have acted, and did
@@ -628,7 +668,7 @@ void relax(Motion<S>* motions, ContactBlock<S>* blocks, std::size_t count, const
     const TwoImpulses<Vector<S>> totals{add_to_totals(k, p1, now.normal.first, now.tangent.first),
                                         add_to_totals(k, p2, now.normal.second, now.tangent.second)};
     if (kLast) {
-      follow_loads(k, totals, settings);
+      follow_loads(k, at, totals, now.normal, settings);
     } else {
       kick(k, at, now, settings.kicks);
     }

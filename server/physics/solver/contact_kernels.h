@@ -19,9 +19,10 @@ struct PassSettings {
   S inv_h;      // 1/s
   S bias_rate;  // 1/s
   S compliance;
-  S sub_step_share;  // of a step: 1 / sub-steps
-  S preload_rate;    // share of the way to the mean impulse per step
-  S threshold;       // m/s, of restitution
+  S sub_step_share;     // of a step: 1 / sub-steps
+  S preload_rate;       // share of the way to the mean impulse per step
+  S preload_rate_more;  // on top of it, at most
+  S threshold;          // m/s, of restitution
   bool friction;
   Kick<S>* kicks;  // by body slot
 };

@@ -116,11 +116,13 @@ template <class S>
 PassSettings<S> pass_settings(WorldData<S>& world, S h, S stiffer) {
   const S hertz = stiffer * min_of(S(kContactHertz), S(kContactHertzPerSubStepRate) / h);
   const Softness<S> soft(hertz, S(kContactDampingRatio), h);
+  const S preload_rate = min_of(S(1), S(world.settings.time_step / kPreloadTime));
   return {S(1) / h,
           soft.bias_rate,
           soft.compliance,
           S(1) / S(world.settings.sub_steps),
-          min_of(S(1), S(world.settings.time_step / kPreloadTime)),
+          preload_rate,
+          min_of(S(1) - preload_rate, S(world.settings.time_step / kPreloadTimeFast)),
           S(world.settings.restitution_threshold),
           world.model.friction,
           world.scratch.kicks.data()};

@@ -7,8 +7,9 @@ namespace urto {
 // average of its impulse,  v + bias_rate · s = −compliance · k · (λ − P).  A plain spring has to be compressed to carry
 // what lies on it, and a stack of N boxes sinks by N² of that; with the preload it carries its load uncompressed in the
 // end, and still yields to sudden change. (The multiplier of an augmented Lagrangian, updated slowly enough that the
-// update does not race the solver's own convergence up the stack: kPreloadTime.) The law holds on into the gap, until
-// λ = 0, so that a contact that carries all by its preload does not rattle at s = 0.
+// update does not race the solver's own convergence up the stack: kPreloadTime, and kPreloadTimeFast where a load is
+// found sooner.) The law holds on into the gap, until λ = 0, so that a contact that carries all by its preload does not
+// rattle at s = 0.
 template <class S>
 struct Softness {
   S bias_rate;   // 1/s: ω / (2ζ + hω)
