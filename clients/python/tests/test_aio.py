@@ -9,7 +9,7 @@ from collections.abc import Awaitable, Callable
 import pytest
 
 import urto
-from support.fake_room import GRAVITY_Y, TIME_STEP, FakeRoom
+from support.fake_room import GRAVITY_Y, TIME_STEP, FakeRoom, Publishing
 
 
 def _with_room(fake: FakeRoom, use: Callable[[urto.aio.Room], Awaitable[None]]) -> None:
@@ -58,10 +58,9 @@ def test_frames_and_events_are_iterated(fake: FakeRoom) -> None:
             ball = batch.spawn(urto.Circle(radius=1))
             batch.apply_impulse(ball, (1, 0))
         frames = room.frames()
-        await asyncio.to_thread(fake.wait_snapshot_reader)
         fake.advance()
-        fake.publish()
-        assert (await anext(frames))[ball].velocity[0] == 1
+        with Publishing(fake):
+            assert (await anext(frames))[ball].velocity[0] == 1
         assert isinstance(await anext(room.events(timeout=10)), urto.MemberJoined)
         assert [event async for event in room.events(timeout=0)] == []
 

@@ -14,7 +14,7 @@ import pytest
 
 import urto
 from urto._proto.v1 import scene_pb2, snapshot_pb2
-from support.fake_room import EVENTS_KEPT, GRAVITY_Y, TIME_STEP, FakeRoom
+from support.fake_room import EVENTS_KEPT, GRAVITY_Y, TIME_STEP, FakeRoom, Publishing
 
 
 def test_connect_finds_the_only_room_and_joins_it(fake: FakeRoom) -> None:
@@ -175,10 +175,9 @@ def test_a_closed_room_says_so(room: urto.Room) -> None:
 def test_frames_are_the_newest_and_count_what_was_missed(room: urto.Room, fake: FakeRoom) -> None:
     body = room.spawn(urto.Circle(radius=1))
     frames = room.frames()
-    fake.wait_snapshot_reader()
     fake.advance()
-    fake.publish()
-    assert next(frames).tick == 1
+    with Publishing(fake):
+        assert next(frames).tick == 1
     for _ in range(5):
         fake.advance()
         fake.publish()
