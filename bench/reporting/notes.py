@@ -26,8 +26,7 @@ class Notes:
             engine: hashlib.sha256(program.read_bytes()).hexdigest()[:16] for engine, program in programs.items()
         }
         self._lock = threading.Lock()
-        self._known: dict[tuple[str, ...], list[Record]] = {}
-        self._at: dict[tuple[str, ...], float] = {}
+        self._known: dict[tuple[str, ...], Record] = {}
         self.used_since = time.time()  # when the oldest note that was asked for was taken
         oldest = time.time() - 3600 * KEPT_HOURS
         for line in path.read_text(encoding="utf-8").splitlines() if path.exists() else []:
@@ -36,26 +35,26 @@ class Notes:
             except json.JSONDecodeError:
                 continue  # it was being written when the report was stopped
             if note["at"] > oldest:
-                self._known[tuple(note["key"])] = note["lines"]
-                self._at[tuple(note["key"])] = note["at"]
+                self._known[tuple(note["key"])] = note
 
     def _key(self, engine: str, arguments: Sequence[str]) -> tuple[str, ...]:
         return engine, self._programs[engine], *arguments
 
     def get(self, engine: str, arguments: Sequence[str]) -> list[Record] | None:
-        key = self._key(engine, arguments)
-        self.used_since = min(self.used_since, self._at.get(key, self.used_since))
-        return copy.deepcopy(self._known.get(key))
+        note = self._known.get(self._key(engine, arguments))
+        if note is None:
+            return None
+        self.used_since = min(self.used_since, note["at"])
+        return copy.deepcopy(note["lines"])
 
     def add(self, engine: str, arguments: Sequence[str], lines: Sequence[Record]) -> None:
         """May be called from several threads."""
-        key = self._key(engine, arguments)
-        note = json.dumps({"at": time.time(), "key": key, "lines": lines}) + "\n"
+        note = {"at": time.time(), "key": self._key(engine, arguments), "lines": copy.deepcopy(list(lines))}
         with self._lock:
-            self._known[key] = copy.deepcopy(list(lines))
+            self._known[note["key"]] = note
             self._path.parent.mkdir(parents=True, exist_ok=True)
             with self._path.open("a", encoding="utf-8") as file:
-                file.write(note)
+                file.write(json.dumps(note) + "\n")
 
     def forget(self) -> None:
         self._known.clear()

@@ -10,52 +10,44 @@
 // After foreach_target.h:
 #include <hwy/highway.h>
 
+#include "physics/simd/rows-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace urto {
 namespace HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
 constexpr std::size_t kBoxPairs = 16;  // in a pair of nodes
 
 #if HWY_TARGET != HWY_SCALAR
 
-using Tag = hn::CappedTag<float, kBoxPairs>;
-using Vector = hn::Vec<Tag>;
-using Mask = hn::Mask<Tag>;
+static_assert(kBoxPairs % kLanes<float> == 0);
 
 alignas(64) constexpr std::int32_t kLaneOfX[kBoxPairs] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 
 // Of four scalars the one that each pair has of x, from pair `first` on.
-HWY_INLINE Vector of_x(const float* four, std::size_t first) {
-  const Tag d;
-  if constexpr (hn::MaxLanes(Tag()) == 4) {
+HWY_INLINE Vector<float> of_x(const float* four, std::size_t first) {
+  const Tag<float> d;
+  if constexpr (hn::MaxLanes(Tag<float>()) == 4) {
     return hn::Set(d, four[first / 4]);
   } else {
     return hn::TableLookupLanes(hn::LoadDup128(d, four), hn::SetTableIndices(d, kLaneOfX + first));
   }
 }
-HWY_INLINE Vector of_y(const float* four) { return hn::LoadDup128(Tag(), four); }
+HWY_INLINE Vector<float> of_y(const float* four) { return hn::LoadDup128(Tag<float>(), four); }
 
-HWY_INLINE Mask overlap(const Box4<float>& x, const Box4<float>& y, std::size_t first) {
+HWY_INLINE Mask<float> overlap(const Box4<float>& x, const Box4<float>& y, std::size_t first) {
   return hn::And(
       hn::And(hn::Le(of_x(x.lower_x, first), of_y(y.upper_x)), hn::Le(of_y(y.lower_x), of_x(x.upper_x, first))),
       hn::And(hn::Le(of_x(x.lower_y, first), of_y(y.upper_y)), hn::Le(of_y(y.lower_y), of_x(x.upper_y, first))));
 }
 
-HWY_INLINE std::uint32_t bits_of(Mask mask) {
-  std::uint8_t bits[8] = {};
-  hn::StoreMaskBits(Tag(), mask, bits);
-  return bits[0] | static_cast<std::uint32_t>(bits[1]) << 8;
-}
-
 HWY_INLINE std::uint32_t meeting(const Nodes<float>& a, const Nodes<float>& b, bool fresh, const NodePair& pair) {
   std::uint32_t out = 0;
-  for (std::size_t first = 0; first < kBoxPairs; first += hn::Lanes(Tag())) {
-    Mask met = overlap(a.boxes[pair.x], b.boxes[pair.y], first);
+  for (std::size_t first = 0; first < kBoxPairs; first += hn::Lanes(Tag<float>())) {
+    Mask<float> met = overlap(a.boxes[pair.x], b.boxes[pair.y], first);
     if (fresh) met = hn::AndNot(overlap(a.before[pair.x], b.before[pair.y], first), met);
-    out |= bits_of(met) << first;
+    out |= bits_of<float>(met) << first;
   }
   return out;
 }
