@@ -76,31 +76,29 @@ HWY_INLINE Columns<float> turn_tiles(Columns<float> m) {
           hn::InterleaveUpper(d, t2, t3)};
 }
 
-// One row of four in each 128-bit block, a quarter of the vector's width apart.
+// One row of four in each 128-bit block, a quarter of the vector's width apart. Halves are told by their lanes: what
+// type Highway gives the half of a tag differs between its versions.
 template <class D>
 struct Blocks {
   using Half = hn::Half<D>;
+  static constexpr bool kWhole = hn::MaxLanes(D()) == 4;
   static constexpr std::size_t kRows = hn::MaxLanes(D()) / 8;  // of one half
   template <class Row>
   static HWY_INLINE hn::Vec<D> load(const Row& row, std::size_t first) {
-    return hn::Combine(D(), Blocks<Half>::load(row, first + 4 * kRows), Blocks<Half>::load(row, first));
+    if constexpr (kWhole) {
+      return hn::LoadU(D(), row(first));
+    } else {
+      return hn::Combine(D(), Blocks<Half>::load(row, first + 4 * kRows), Blocks<Half>::load(row, first));
+    }
   }
   template <class Row>
   static HWY_INLINE void store(hn::Vec<D> v, const Row& row, std::size_t first) {
-    Blocks<Half>::store(hn::LowerHalf(Half(), v), row, first);
-    Blocks<Half>::store(hn::UpperHalf(Half(), v), row, first + 4 * kRows);
-  }
-};
-template <>
-struct Blocks<hn::FixedTag<float, 4>> {
-  using D = hn::FixedTag<float, 4>;
-  template <class Row>
-  static HWY_INLINE hn::Vec<D> load(const Row& row, std::size_t first) {
-    return hn::LoadU(D(), row(first));
-  }
-  template <class Row>
-  static HWY_INLINE void store(hn::Vec<D> v, const Row& row, std::size_t first) {
-    hn::StoreU(v, D(), row(first));
+    if constexpr (kWhole) {
+      hn::StoreU(v, D(), row(first));
+    } else {
+      Blocks<Half>::store(hn::LowerHalf(Half(), v), row, first);
+      Blocks<Half>::store(hn::UpperHalf(Half(), v), row, first + 4 * kRows);
+    }
   }
 };
 using FloatBlocks = Blocks<Tag<float>>;
