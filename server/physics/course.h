@@ -21,7 +21,15 @@ struct Course {
 template <class S>
 class Courses {
  public:
-  explicit Courses(const WorldData<S>& world) : world_(world), index_(world.bodies.size(), kNone) {}
+  // Borrows the world's list of places, which is as long as there are bodies, so that only changed ones cost anything.
+  explicit Courses(WorldData<S>& world) : world_(world), index_(world.scratch.course) {
+    index_.resize(world.bodies.size(), kNone);
+  }
+  ~Courses() {
+    for (const Course<S>& course : changed_) index_[course.body] = kNone;
+  }
+  Courses(const Courses&) = delete;
+  Courses& operator=(const Courses&) = delete;
 
   Course<S> of(std::uint32_t slot) const {
     if (index_[slot] != kNone) return changed_[index_[slot]];
@@ -78,7 +86,7 @@ class Courses {
 
  private:
   const WorldData<S>& world_;
-  std::vector<std::uint32_t> index_;  // by body slot, into changed_
+  std::vector<std::uint32_t>& index_;  // by body slot, into changed_
   std::vector<Course<S>> changed_;
 };
 

@@ -62,6 +62,7 @@ struct Scratch {
   std::vector<Vec<S>> pulls;                        // m/s, by awake index
   std::vector<Kick<S>> kicks;                       // by body slot; all zero between steps
   std::vector<std::uint32_t> stretched;             // body slots, see continuous.h
+  std::vector<std::uint32_t> course;                // by body slot, see course.h; all kNone between steps
   std::vector<std::uint32_t> parted, met;           // contact slots
   std::vector<std::uint8_t> findings;               // by index of active contact
   std::vector<std::vector<std::uint32_t>> by_part;  // of a shared loop
