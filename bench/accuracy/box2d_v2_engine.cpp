@@ -4,6 +4,8 @@
 
 #include <box2d/box2d.h>
 
+#include <algorithm>
+
 #include "peer.h"
 
 namespace urto::accuracy {

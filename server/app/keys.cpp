@@ -1,5 +1,7 @@
 #include "app/keys.h"
 
+#include <algorithm>
+
 #include "app/options.h"
 
 namespace urto::app {

@@ -1,5 +1,6 @@
 #include "accuracy/rectangles.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace urto::accuracy {

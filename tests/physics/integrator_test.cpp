@@ -1,5 +1,6 @@
 #include "physics/integrator.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "physics/support/scenes.h"

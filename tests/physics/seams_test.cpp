@@ -1,5 +1,6 @@
 #include "physics/seams.h"
 
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 

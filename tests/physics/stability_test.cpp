@@ -1,5 +1,6 @@
 // Stacks stand, piles come to rest, islands fall asleep and wake.
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 

@@ -104,6 +104,17 @@ def unfinished_marks(text: str) -> list[str]:
     return re.findall(r"\b(?:TODO|FIXME|XXX|HACK)\b", text)
 
 
+def borrowed_headers(text: str) -> list[str]:
+    """Algorithms of a file that has `<algorithm>` only by way of other headers: another library brings fewer."""
+    if "<algorithm>" in text:
+        return []
+    return re.findall(
+        r"std::(?:max|min|minmax|clamp|sort|stable_sort|nth_element|fill|copy|find|find_if|count_if|all_of|any_of"
+        r"|none_of|max_element|min_element|lower_bound|upper_bound|equal|reverse|rotate|unique|transform|remove_if)\(",
+        text,
+    )
+
+
 def undocumented(proto: str) -> list[str]:
     """Numbers whose unit stands neither beside them, nor on the two lines above, nor in the comment of their message;
     messages and enums without a comment whose fields have none either."""
@@ -174,6 +185,11 @@ def test_a_file_names_no_path_of_one_machine_and_nothing_unfinished(path):
         assert machine_paths(text) + unfinished_marks(text) == []
 
 
+@pytest.mark.parametrize("path", of_kind(".h", ".cpp"), ids=name)
+def test_a_source_includes_the_algorithms_that_it_uses(path):
+    assert borrowed_headers(path.read_text(encoding="utf-8")) == []
+
+
 @pytest.mark.parametrize("path", of_kind(".proto"), ids=name)
 def test_the_schema_is_documented(path):
     assert undocumented(path.read_text(encoding="utf-8")) == []
@@ -212,6 +228,7 @@ def test_a_link_of_the_documentation_leads_somewhere(path):
         (waits_by_the_clock, "std::this_thread::sleep_for(10ms);"),
         (machine_paths, 'path = "/home/somebody/urto"'),
         (unfinished_marks, "// TODO: later"),
+        (borrowed_headers, "#include <cmath>\nconst int most = std::max({1, 2});"),
         (undocumented, "// A thing.\n\nmessage Thing {\n  uint32 id = 1;  // its id\n\n\n  double size = 2;\n}"),
         (undocumented, "\nmessage Thing {\n  uint32 id = 1;\n}"),
     ],
@@ -225,6 +242,7 @@ def test_a_rule_finds_a_fault(rule, fault):
     [
         (lambda text: wrong_includes("room", text), '#include "physics/world.h"\n#include <vector>'),
         (waits_by_the_clock, "await asyncio.sleep(0)"),
+        (borrowed_headers, "#include <algorithm>\nstd::sort(a, b);"),
         (machine_paths, "see docs/protocol.md and https://example.org/home/page"),
         (undocumented, "// A thing.\nmessage Thing {\n  double size = 1;  // m\n}"),
     ],

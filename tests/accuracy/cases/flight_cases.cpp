@@ -1,5 +1,6 @@
 // Motion without contact: parabolas, free spins, and the order of the integrators on forces that are not linear.
 
+#include <algorithm>
 #include <cmath>
 
 #include "accuracy/case.h"

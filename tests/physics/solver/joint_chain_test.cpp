@@ -1,4 +1,5 @@
 // Long and stretched chains: how far their joints are apart, as a share of the chain's length.
+#include <algorithm>
 #include <cmath>
 
 #include "physics/constants.h"

@@ -1,5 +1,6 @@
 #include "physics/solver/soft_step.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 

@@ -2,6 +2,8 @@
 
 // Joints between bodies of small worlds.
 
+#include <algorithm>
+
 #include "physics/support/scenes.h"
 
 namespace urto::testing {
