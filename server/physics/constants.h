@@ -30,7 +30,7 @@ inline constexpr double kGroundStiffness = 2.0;
 // recover late. Measured in docs/decisions/0008.
 inline constexpr double kPreloadTime = 12.0;  // s
 // The time on top where contacts are few in a row and their load is found soon: of masses that differ, and with ground
-// that is sunk into. Shorter, and a box under a thousandfold one is thrown out (docs/decisions/0002).
+// that is sunk into. Shorter, and it races the solver under some thousand times the mass (docs/decisions/0002).
 inline constexpr double kPreloadTimeFast = 1.0;  // s
 inline constexpr double kUnevenMasses = 8.0;     // the heavier one's mass over the lighter's; in full at twice that
 inline constexpr double kSunkDepth = 4e-3;       // m, into what does not move; in full at twice that
